@@ -137,10 +137,23 @@ TEST_F(Analyse, ParticipantsTransferForThemselves) {
     const auto outcome = call("analyse confusion c.csv --export m.csv --participants each.csv");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(
-        outcome.out.find("\n  IT of participants: mean 0.50 bit, standard error 0.50 bit, 2 participants; "
-                         "without P3, for lack of a stimulus\n"),
+        outcome.out.find("\n  IT of participants: mean 0.50 bit, standard error 0.50 bit, 2 participants\n"
+                         "  stimuli are lacking of P3: left out of means of participants\n"),
         std::string::npos)
         << outcome.out;
+    EXPECT_NE(outcome.out.find("mean of participants 75.0 (95 % interval over 2 participants"),
+              std::string::npos)
+        << "not of whom had the easier stimulus alone: " << outcome.out;
+    EXPECT_NE(read("each.csv").find("\nPHONE,P3,1,,0,\n"), std::string::npos) << read("each.csv");
+    write("c.csv", "participant,stimulus,response\nP1,a,a\nP1,b,b\nP2,a,a\nP3,b,a\n");
+    EXPECT_NE(
+        call("analyse confusion c.csv").out.find("stimuli are lacking of P2, P3: each counts with those"),
+        std::string::npos);
+    write(
+        "c.csv",
+        "participant,condition,stimulus,response\nP1,PHONE,a,a\nP1,PHONE,b,b\nP2,PHONE,a,a\nP2,PHONE,b,a\n");
+    EXPECT_EQ(call("analyse confusion c.csv --participants each.csv").out.find("are lacking"),
+              std::string::npos);
     EXPECT_NE(read("m.csv").find("\nPHONE,P2,b,a,1\n"), std::string::npos);
     EXPECT_NE(read("each.csv").find("\nPHONE,P1,2,100,1,\nPHONE,P2,2,50,0,\n"), std::string::npos)
         << read("each.csv");

@@ -102,7 +102,7 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
     for (const char* line : {"\nP,,,4,2,2,", "\nQ,,,4,2,0,", "\nT,,,0,0,0,"})
         EXPECT_TRUE(has(read("likes/participants.csv"), line)) << read("likes/participants.csv");
     for (const char* words :
-         {"5 participants in 1 file", "Groups: 1 not known, 1 x, 2 y.", ">1 row with nothing in one of",
+         {"5 participants in 1 file", "Groups: 1 x, 2 y, 1 not known.", ">1 row with nothing in one of",
           "participant T has 0 trials, others have up to 4", "participant P: 2 trials without an answer",
           "condition=calm: 8 trials of 4 participants", "group=not known: 4 trials of 1 participant"})
         EXPECT_TRUE(has(likes, words)) << words << likes.substr(likes.find("Participants<"), 3000);
@@ -161,8 +161,9 @@ TEST_F(Report, APlanHasTheExclusionsAndCorrections) {
         EXPECT_TRUE(has(steps, words)) << words << steps;
         EXPECT_FALSE(has(grids, words)) << words;
     }
-    for (const char* words : {"ran out of time or have no answer", "scores also have a mixed model of all",
-                              "Greenhouse and Geisser's", "of the pairs of a factor Holm's"})
+    for (const char* words :
+         {"ran out of time or have no answer", "an analysis of variance also has a mixed model of all",
+          "Greenhouse and Geisser's", "of the pairs of a factor Holm's"})
         EXPECT_TRUE(has(grids, words)) << words << grids;
     EXPECT_FALSE(has(grids, "with their corrections"));
 }
@@ -296,12 +297,13 @@ TEST_F(Report, SmallLevelsKeepTheirDigitsAndFewPeopleTheirInterval) {
 
 TEST_F(Report, PeopleOfWhomNothingIsKnownCount) {
     simulate("level-steps", 3);
-    write("people.csv", "participant,age,sex\nP01,20,female\n");
+    write("people.csv", "participant,age,sex,excluded,group\nP01,20,female,NA,NA\nP02,NA,NA,,g\n"); // of R's
     ASSERT_EQ(call("report level-steps-P*.csv --out out --people people.csv").exitCode, 0);
     EXPECT_TRUE(has(page(), "20 years (1 of 3 known).")) << "Age";
     EXPECT_TRUE(has(page(), "Sex: 1 female, 2 not known."));
     EXPECT_TRUE(has(page(), "Nobody and no main trial is left out before"))
         << "staircases end where they end";
+    EXPECT_TRUE(has(page(), "Groups: 1 g, 2 not known."));
     EXPECT_FALSE(has(page(), "Trainings"));
 }
 

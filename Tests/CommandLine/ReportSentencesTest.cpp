@@ -117,6 +117,12 @@ std::vector<Sentence> sentences() {
         if (row["participant"] == "P2" && (row["trial"] == "5" || row["trial"] == "6"))
             row["participant"].clear();
     };
+    const Edit twoPoints = [](Row& row) { // each has one
+        if (row["stimulus"] == (row["participant"] == "P1" ? "1,1" : "1,2")) row["participant"].clear();
+    };
+    const Edit onePoint = [](Row& row) {
+        if (row["participant"] == "P2" && row["stimulus"] == "1,1") row["participant"].clear();
+    };
     const Edit holes = [](Row& row) {
         if (row["participant"] == "P2" && row["session"] == "main" && row["condition"] == "a" &&
             (row["trial"] == "2" || row["trial"] > "6"))
@@ -137,7 +143,8 @@ std::vector<Sentence> sentences() {
                 if (row["participant"] == "P2" && row["condition"] == "b") row["participant"].clear();
             }),
          of(grid, 3)},
-        {"whether everyone finished is not known: levels followed the answers", of(unknown, 3), of(grid, 3)},
+        {"whether everyone finished, and who was at an end of the levels, is not known: levels followed",
+         of(unknown, 3), of(grid, 3)},
         {"Trainings are left out of all analyses.", of(grid, 3), of(grid, 3, noTraining)},
         {"levels were set in a training, and no others: it counts", of(fits, 2), of(grid, 3)},
         {"trials do not say on which device", of(grid, 3), of(grid, 3, device)},
@@ -181,6 +188,8 @@ std::vector<Sentence> sentences() {
         {"a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be the smallest",
          of(constant, 3, step, true), of(constant, 3, rising, true)},
         {"functions are logistic, with a guess rate of", of(constant, 3, rising, true), of(quest, 3)},
+        {"The JND is half of what lies between a quarter and three quarters.", of(constant, 3, rising, true),
+         of(quest, 3)},
         {"thresholds by QUEST+: of each participant with the widths that all answers in the condition tell "
          "together; "
          "intervals are Student's t and the error of these widths",
@@ -227,6 +236,13 @@ std::vector<Sentence> sentences() {
         {"intervals over participants where there is room.", of(grid, 3), of(grid, 1)},
         {"Confusions: rows are stimuli, columns responses", of(names, 3), of(grid, 3)},
         {"Where labels have no room every second, third ... is shown.", of(names, 3), of(grid, 3)},
+        {", without those who lack a stimulus.", of(grid, 3), of(grid, 2, twoPoints)},
+        {", each of the stimuli that there are.", of(grid, 2, twoPoints), of(grid, 3)},
+        {"stimuli are lacking of P2: left out of means of participants", of(grid, 3, onePoint), of(grid, 3)},
+        {"stimuli are lacking of P1, P2: each counts with those that there are", of(grid, 2, twoPoints),
+         of(grid, 3)},
+        {"shares over several conditions are of all trials that each participant had in them", of(fits, 3),
+         of(grid, 3)},
         {"Mean percent correct, 1 step of tolerance", of(grid, 3), of(names, 3)},
         {"Every response (coloured by target, shaped by its row)", of(field, 3), of(grid, 3)},
         {"Mean perceived column and row against the intended one", of(field, 3), of(grid, 3)},
@@ -257,9 +273,10 @@ std::vector<Sentence> sentences() {
         {"no response; trials left out for that: ", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
         {": 1 of 2 trials, a training", of(grid, 3, halfATraining, true), of(grid, 3)},
         {"staircase 1 ended at 6 trials with ", of(cut, 3, {}, true), of(interleaved, 3, {}, true)},
-        {"thresholds of staircases: means of the later half of their reversals (of an odd number also the "
-         "middle "
-         "one)",
+        {"thresholds of staircases: means of the later half of the reversals that a trial followed, so "
+         "without "
+         "one that ended the staircase (of an odd number also the middle one); of several staircases their "
+         "mean, and none where one of them has none",
          of(steps, 3), of(quest, 3)},
         {"participant P2 did not finish main in ", of(interleaved, 3, stopsEarly, true),
          of(interleaved, 3, {}, true)},

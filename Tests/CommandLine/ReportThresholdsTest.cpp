@@ -44,8 +44,45 @@ TEST_F(ReportThresholds, OfConstantStimuliArePlanned) {
     writeThree(loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/frequency-constant.json").value);
     const std::string plan = call("study plan study.json --participants 4 --out plan.txt").out;
     for (const char* test :
-         {"analysis of variance of threshold by condition", "pairs by t of JND by condition"})
+         {"and JNDs of each participant's logistic function",
+          "analysis of variance of threshold by condition", "pairs by t of JND by condition"})
         EXPECT_NE(plan.find(test), std::string::npos) << plan;
+}
+
+TEST_F(ReportThresholds, OfTrainingsAreNotPlanned) {
+    for (Protocol one : {findProtocol("level-steps").value,
+                         loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/left-right.json").value}) {
+        one.sessions.push_back(one.sessions.front());
+        one.sessions.front().isTraining = true, one.sessions.front().name = "practice";
+        one.sessions.back() = loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/likert-seven.json")
+                                  .value.sessions.back();
+        write("study.json", protocolJson(one));
+        std::filesystem::remove(folder_ / "analysis.R");
+        const auto outcome = call("study plan study.json --participants 4 --out plan.txt");
+        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        for (const char* words : {"Measures", "- functions of levels"})
+            EXPECT_EQ(outcome.out.find(words), std::string::npos) << outcome.out;
+    }
+}
+
+TEST_F(ReportThresholds, PlansHaveTheirMeasuresAndTheTestsOfTimeThatRanOut) {
+    for (const double seconds : {0.0, 20.0}) {
+        Protocol protocol = findProtocol("level-steps").value;
+        protocol.sessions.back().answerSeconds = seconds;
+        writeThree(protocol);
+        const std::string plan = call("study plan study.json --participants 4 --out plan.txt").out;
+        if (hasProgram("Rscript"))
+            EXPECT_EQ(plan.find("trials that ran out of time in main by condition") != plan.npos,
+                      seconds > 0.0)
+                << plan;
+        EXPECT_NE(
+            plan.find("\nMeasures\n- thresholds of staircases: means of the later half of the reversals "
+                      "that a trial followed, so without one that ended the staircase"),
+            std::string::npos);
+    }
+    std::filesystem::remove(folder_ / "analysis.R");
+    EXPECT_EQ(call("study plan magnitudes --participants 4 --out plan.txt").out.find("Measures"),
+              std::string::npos);
 }
 
 } // namespace

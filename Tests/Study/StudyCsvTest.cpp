@@ -116,6 +116,15 @@ TEST(StudyCsv, OtherProgramsWordsForNothingAndForRight) {
     ASSERT_EQ(trials.size(), 3u) << "null and NA are no answers";
     EXPECT_EQ(trials[0].participant, "NA") << "a code";
     EXPECT_EQ(trials[0].answer + trials[1].answer + 10 * trials[2].answer, 11.0);
+    const auto named = [](const std::string& rows) {
+        return readOne(readIdentification, "participant,stimulus,response,group\n" + rows).value;
+    };
+    const auto labels = named("P,null,null,None\nP,a,null,NA\nP,a,NA,g\n");
+    EXPECT_EQ(labels.conditions.front().trials.size(), 2u) << "a stimulus has that name";
+    EXPECT_TRUE(labels.warnings.at(1).starts_with("stimuli are named null: that is an answer here"))
+        << labels.warnings.at(1);
+    EXPECT_EQ(named("P,b,b,g\nP,a,null,g\n").conditions.front().trials.size(), 1u);
+    EXPECT_TRUE(RowsLeftOut{}.isNoAnswer("group", "NA") && !RowsLeftOut{}.isNoAnswer("group", "None"));
     const std::string head =
         "# physvib 1 protocol=p participant=P\nparticipant,condition,session,trial,choice\n";
     EXPECT_EQ(readOne(readChoices, head + "P,c,s,1,null\n").value.conditions.front().trials.front().choice,

@@ -90,17 +90,24 @@ TEST(Votes, OneRatingHasNoIntervalAndNoNumberIsMissing) {
 TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
     std::vector<LevelTrial> trials;
     const auto add = [&](const char* who, const std::vector<double>& levels, const std::string& answers,
-                         const char* session = "", std::size_t gaps = 0) {
+                         const char* session = "") {
         for (std::size_t i = 0; i < levels.size(); ++i)
-            trials.push_back({LevelTrial::Kind::staircase, who, "A", who, levels[i],
-                              answers[i] == 'r' ? 1.0 : 0.0, session, "", gaps});
+            trials.push_back({LevelTrial::Kind::staircase,
+                              who,
+                              "A",
+                              who,
+                              levels[i],
+                              answers[i] == 'r' ? 1.0 : 0.0,
+                              session,
+                              "",
+                              {{0.0, 20.0}}});
     };
     add("P1", {8, 8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrrwrrwrrw"); // turns at 4, 5, 4.5 and 5
     add("P2", {2, 1}, "rr");
-    add("P3", {1, 1, 0, 0, 0, 1, 1, 0, 1}, "rrrrwrrwr"); // two right at 0, which is as low as it goes
+    add("P3", {1, 1, 0, 0, 0, 1, 1, 0, 1}, "rrrrwrrwr"); // half of its reversals are at 0
     add("P4", {8, 8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrrwrrwrrw", "main/1");
     add("P4", {2, 1}, "rr", "main/2");
-    add("P5", {8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrwrrwrrw", "", 1);      // its first row is not there
+    add("P5", {8, 6, 6, 4, 5, 5, 4.5, 5, 5, 4.5}, "rrrwrrwrrw");
     add("P6", {2, 2, 1, 2, 2, 1, 1, 0, 0, 0, 0, 0, 0, 0}, "rrwrrrrrrrrrrr"); // turned above, held at 0
     const auto summaries = summariseLevels(trials);
     ASSERT_EQ(summaries.at(0).leftOut.size(), 4u);
@@ -117,6 +124,19 @@ TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
                                           "trials, or of the reversals that count, at an end of its levels");
     EXPECT_EQ(summaries[0].leftOut.at(2), "participant P4 left out: staircase 2 of main has fewer than two "
                                           "reversals; a threshold is the mean of 2 staircases");
+}
+
+TEST(LevelTrials, AnEndIsOneThoughNoTrialWasHeldThere) {
+    std::vector<LevelTrial> trials; // half of the later reversals are at 0, which one wrong answer leaves at
+                                    // once
+    for (const double level : {3.0, 3.0, 1.0, 2.0, 2.0, 1.5, 1.5, 1.0, 1.0, 0.5, 1.0, 1.5,
+                               1.5, 1.0, 1.0, 0.5, 0.5, 0.0, 0.0, 0.5, 0.5, 0.0, 0.5})
+        trials.push_back({LevelTrial::Kind::staircase, "P", "A", "", level, 1.0});
+    EXPECT_TRUE(summariseLevels(trials).at(0).leftOut.empty());
+    for (LevelTrial& trial : trials) trial.range = {0.0, 14.0};
+    EXPECT_EQ(summariseLevels(trials).at(0).leftOut.size(), 1u);
+    for (LevelTrial& trial : trials) trial.range = {-1.0, 14.0};
+    EXPECT_TRUE(summariseLevels(trials).at(0).leftOut.empty());
 }
 
 TEST(LevelTrials, MatchesAreMeansAndMagnitudesGeometricMeans) {

@@ -72,7 +72,8 @@ void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
     }
     out << "(... to ...): 95 % interval over "
         << (summaries.front().participants > 1 ? "participants" + alikeWords(summaries) + "\n"
-                                               : "trials, of one participant\n");
+                                               : "trials, of one participant\n")
+        << "shares over several conditions are of all trials that each participant had in them\n";
     report.picture = [data] {
         std::vector<std::string> charts;
         for (const auto& [name, trials] : data.conditions)
@@ -131,8 +132,8 @@ void analyseRatings(const RatingData& data, const Findings& to) {
         for (const RatingTrial& trial : session.trials)
             conditions.insert(inSession(trial.condition, session.name));
     if (summaries.size() > conditions.size())
-        out << "of a factor's level a participant has the mean of their means of all conditions whose names "
-               "have it\n";
+        out << "of a factor's level a participant has the mean of their means of the conditions whose names "
+               "have it that they had\n";
     report.picture = [scales, summaries, isSimulated = data.isSimulated] {
         return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, summaries);
     };
@@ -156,13 +157,10 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
                   s.estimate, known(s.deviation), known(s.halfInterval));
     }
     if (std::ranges::any_of(summaries, [](const auto& s) { return s.reversals > 0; }))
-        out << "thresholds of staircases: means of the later half of their reversals (of an odd number also "
-               "the middle one); of several staircases their mean\n";
+        out << staircaseThresholds << '\n';
     if (std::ranges::any_of(
             summaries, [](const auto& s) { return s.kind == LevelTrial::Kind::quest && s.participants > 1; }))
-        out << "thresholds by QUEST+: of each participant with the widths that all answers in the condition "
-               "tell "
-               "together; intervals are Student's t and the error of these widths\n";
+        out << questThresholds << '\n';
     report.participants = each.text();
     report.picture = [summaries, isSimulated = data.isSimulated] {
         using Kind = LevelTrial::Kind;

@@ -81,41 +81,35 @@ void tell(std::ostream& out, const std::string& indent, const ConfusionMatrix& m
         << fixedNumber(std::exp2(it.bestBits()), 1) << '\n';
 }
 
-void exportMatrix(ExportTable& table, const std::string& condition, const ParticipantTransfer& own) {
-    const ConfusionMatrix& matrix = own.matrix;
-    for (std::size_t i = 0; i < matrix.stimuli(); ++i)
-        for (std::size_t j = 0; j < matrix.responses(); ++j) {
-            table.row(condition, own.participant, matrix.label(i), matrix.label(j),
-                      std::size_t{matrix.count(i, j)});
-        }
-}
-
-void exportTransfer(ExportTable& table, const std::string& condition, const ParticipantTransfer& own) {
-    const auto trials = static_cast<double>(own.matrix.trials());
-    table.row(condition, own.participant, std::size_t{own.matrix.trials()},
-              100.0 * static_cast<double>(own.matrix.correct()) / trials, own.transfer.bits,
-              own.transfer.canBeCorrected() ? std::optional{own.transfer.correctedBits()} : std::nullopt);
-}
-
-/// Information transfer by participant: the mean as text, all participants in both tables.
-void tellAndExport(std::ostream& out, const std::string& indent,
-                   const StudyCondition<IdentificationTrial>& condition, std::size_t stimuli,
+/// Each participant in both tables; their mean information transfer, and who lacks stimuli, as text.
+void tellAndExport(std::ostream& out, const std::string& indent, const std::string& condition,
+                   const std::vector<ParticipantTransfer>& people, std::size_t stimuli, bool isOfAll,
                    ExportTable& counts, ExportTable& each) {
     std::vector<double> transferred;
     std::string lacking;
-    for (const auto& own : transferByParticipant(condition.trials)) {
-        exportMatrix(counts, condition.name, own);
-        exportTransfer(each, condition.name, own);
-        if (own.matrix.stimuli() == stimuli)
-            transferred.push_back(own.transfer.bestBits());
+    for (const auto& [participant, matrix, transfer] : people) {
+        for (std::size_t i = 0; i < matrix.stimuli(); ++i)
+            for (std::size_t j = 0; j < matrix.responses(); ++j)
+                counts.row(condition, participant, matrix.label(i), matrix.label(j),
+                           std::size_t{matrix.count(i, j)});
+        const bool isWhole = matrix.stimuli() == stimuli;
+        const double share = static_cast<double>(matrix.correct()) / static_cast<double>(matrix.trials());
+        each.row(condition, participant, std::size_t{matrix.trials()},
+                 isWhole || isOfAll ? std::optional{100.0 * share} : std::nullopt, transfer.bits,
+                 transfer.canBeCorrected() ? std::optional{transfer.correctedBits()} : std::nullopt);
+        if (isWhole)
+            transferred.push_back(transfer.bestBits());
         else
-            lacking += (lacking.empty() ? "; without " : ", ") + cleanLine(own.participant);
+            lacking += (lacking.empty() ? "" : ", ") + cleanLine(participant);
     }
-    if (!lacking.empty()) lacking += ", for lack of a stimulus";
     const Moments moments{transferred};
     if (moments.n > 1)
         out << indent << "IT of participants: mean " << bits(moments.mean) << ", standard error "
-            << bits(moments.standardError()) << ", " << moments.n << " participants" << lacking << '\n';
+            << bits(moments.standardError()) << ", " << moments.n << " participants\n";
+    if (!lacking.empty())
+        out << indent << "stimuli are lacking of " << lacking
+            << (isOfAll ? ": each counts with those that there are\n"
+                        : ": left out of means of participants\n");
 }
 
 std::string patternsOf(const ConfusionMatrix& matrix) {
@@ -158,9 +152,13 @@ void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings
         const std::string prefix = condition.name.empty() ? "" : cleanLine(condition.name) + ": ";
         for (const auto& words : matrixWarnings(matrix, it)) report.warnings.push_back(prefix + words);
         if (!condition.name.empty()) out << cleanLine(condition.name) << '\n';
-        tell(out, condition.name.empty() ? "" : "  ", matrix, it, transferByParticipant(condition.trials));
-        if (job.tolerance > 0) tellChance(out, condition.name.empty() ? "" : "  ", matrix, job.tolerance);
-        tellAndExport(out, condition.name.empty() ? "" : "  ", condition, matrix.stimuli(), table, each);
+        const char* const indent = condition.name.empty() ? "" : "  ";
+        const auto people = transferByParticipant(condition.trials),
+                   compared = comparable(people, matrix.stimuli());
+        tell(out, indent, matrix, it, compared);
+        if (job.tolerance > 0) tellChance(out, indent, matrix, job.tolerance);
+        tellAndExport(out, indent, condition.name, people, matrix.stimuli(), compared.size() == people.size(),
+                      table, each);
         matrices.emplace_back(nameOr(condition.name, "all trials"), matrix);
     }
     report.participants = each.text();

@@ -28,15 +28,24 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
             if (job.made == nullptr && !trials.value.protocol && hasAdaptiveRows(trials.value))
                 data.value.warnings.push_back(std::string{file.name} +
                                               ": of no built-in protocol: whether all levels came to their "
-                                              "end is known to `physvib report --protocol`");
+                                              "end, or were at one, is known to `physvib report --protocol`");
+            const auto isOf = [](const LevelTrial& trial, const std::string& session) {
+                return trial.session.substr(0, trial.session.find('/')) == session;
+            };
+            auto& levels = data.value.conditions.front().trials;
+            if (trials.value.protocol)
+                for (const SessionPlan& plan : trials.value.protocol->sessions)
+                    for (LevelTrial& trial : levels)
+                        if (plan.staircase && isOf(trial, plan.name))
+                            trial.range = {plan.staircase->leastDb, plan.staircase->mostDb};
             for (const UnfinishedRun& run : unfinishedRuns(trials.value))
                 if (run.isAdaptive && !run.isOver &&
-                    std::erase_if(data.value.conditions.front().trials,
+                    std::erase_if(levels,
                                   [&](const LevelTrial& trial) {
                                       return trial.participant == run.participant &&
                                              (trial.condition == run.condition ||
                                               trial.condition == inSession(run.condition, run.session)) &&
-                                             trial.session.substr(0, trial.session.find('/')) == run.session;
+                                             isOf(trial, run.session);
                                   }) > 0 &&
                     job.made == nullptr) // a report has told them
                     data.value.warnings.push_back(run.words());

@@ -43,10 +43,12 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
             if (auto fault = shared.add(rows.table()); !fault.empty()) throw StudyFault{std::move(fault)};
             data.isSimulated |= saysSimulated(rows.table());
             const std::size_t taken = take(rows, data);
-            if (rows.leftOut() > 0)
+            if (rows.leftOut().rows > 0)
                 data.warnings.push_back(rows.table().name +
                                         ": rows left out, with nothing in one of the named columns: " +
-                                        std::to_string(rows.leftOut()));
+                                        std::to_string(rows.leftOut().rows));
+            if (std::string words = rows.leftOut().stimuliWords(); !words.empty())
+                data.warnings.push_back(std::move(words));
             if (rows.notLeft() > 0)
                 data.warnings.push_back(rows.table().name + ": " + notLeftWords(rows.notLeft()));
             if (rows.ranOut() > 0)
@@ -332,14 +334,8 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     const bool hasMatches = std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
         return task && answerOf(row.cells[*task]) == AnswerKind::level && !isTraining(row);
     });
-    const auto number = rows.optional("trial"); // of a session, in our own files
-    std::map<std::array<std::string, 3>, std::pair<int, std::size_t>> followed; // last number, gaps
     for (const CsvRow& row : rows.table().rows) {
         const auto answer = task ? answerOf(row.cells[*task]) : std::nullopt;
-        const auto named = [&](const char* column) { return StudyRows::textIf(row, rows.optional(column)); };
-        auto& [last, gaps] = followed[{named("participant"), named("condition"), named("session")}];
-        if (const int own = task && number ? parseNumber<int>(row.cells[*number]).value_or(0) : 0; own > 0)
-            gaps += own > last + 1, last = own;
         if (isTraining(row) && (answer != AnswerKind::level || hasMatches)) continue;
         if (answer == AnswerKind::wish) continue; // explorations have no stimulus
         if (task ? answer == AnswerKind::number : rows.optional("value").has_value()) {
@@ -351,7 +347,6 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
         if (auto trial = levelTrial(rows, row)) {
             ++taken;
             ofTraining += isTraining(row);
-            trial->gaps = gaps;
             conditionNamed(rows, data, {}).push_back(std::move(*trial));
         }
     }

@@ -3,6 +3,7 @@
 #include "Lab/Files/StudyTables.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Text/CleanText.h"
+#include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/PercentCounts.h"
@@ -15,16 +16,8 @@ namespace physvib {
 namespace {
 
 template <class Words>
-bool holds(const Words& words, const std::string& cell) {
+bool holds(const Words& words, std::string_view cell) {
     return std::ranges::find(words, cell) != std::end(words);
-}
-
-/// Other programs' words for none, not of codes.
-bool isNoAnswer(const std::string& column, const std::string& cell) {
-    constexpr std::string_view none[] = {"null", "None", "NaN", "nan", "NA", "n/a", "."},
-                               labels[] = {"participant", "observer", "condition", "session", "phase",
-                                           "task",        "stimulus", "parts",     "group"};
-    return holds(none, cell) && !holds(labels, column);
 }
 
 constexpr std::string_view practice[] = {"practice", "Practice", "practise", "train",   "Training",
@@ -80,14 +73,14 @@ bool isUtf8(std::string_view text) noexcept {
     return true;
 }
 
-void takeOthersWords(CsvTable& table) {
+void takeOthersWords(CsvTable& table, const RowsLeftOut& leftOut) {
     if (!trialHeadOf(table.comments).empty()) return;
     constexpr std::string_view right[] = {"true", "TRUE", "True", "1.0"},
                                wrong[] = {"false", "FALSE", "False", "0.0"};
     for (std::size_t c = 0; c < table.columns.size(); ++c)
         for (CsvRow& row : table.rows) {
             std::string& cell = row.cells[c];
-            if (isNoAnswer(table.columns[c], cell)) cell.clear();
+            if (leftOut.isNoAnswer(table.columns[c], cell)) cell.clear();
             if (table.columns[c] == trialColumns::phase && holds(practice, cell))
                 cell = trialColumns::training;
             if (table.columns[c] != "correct") continue;
@@ -161,7 +154,7 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, Rows
         bool isRated = !hasScales, isAnswered = true, isTrial = false, isWhole = true;
         for (std::size_t c = 0; c < names.size(); ++c) {
             const std::string& ours = names[c].ours;
-            const bool has = !row.cells[from[c]].empty() && !isNoAnswer(ours, row.cells[from[c]]);
+            const bool has = !row.cells[from[c]].empty() && !leftOut.isNoAnswer(ours, row.cells[from[c]]);
             if (!trialColumns::has(ours))
                 isRated |= has; // of scales one is enough
             else if (holds(answerColumns, ours))
@@ -194,6 +187,22 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, Rows
 }
 
 } // namespace
+
+bool RowsLeftOut::isNoAnswer(std::string_view column, const std::string& cell) const {
+    constexpr std::string_view none[] = {"null", "NaN", "nan", "NA", "n/a", ".", "None"},
+                               codes[] = {"participant", "observer", "condition", "session",
+                                          "phase",       "task",     "stimulus",  "parts"};
+    return holds(none, cell) && !holds(codes, column) && !(column == trialColumns::group && cell == "None") &&
+           !(column == "response" && stimuli.contains(cell));
+}
+
+std::string RowsLeftOut::stimuliWords() const {
+    return stimuli.empty()
+               ? std::string{}
+               : "stimuli are named " + joined(stimuli, ", ") +
+                     ": that is an answer here, also where a program wrote it for none, unless you "
+                     "name a column, such as correct, that is empty there";
+}
 
 Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words) {
     std::vector<ColumnName> names;
@@ -231,9 +240,14 @@ Result<CsvTable> readStudyTable(std::string_view text, std::string_view name,
     if (!isUtf8(text))
         return Failure{table.name + ": expected UTF-8, found Latin-1 or the like: save it as CSV UTF-8"};
     if (std::string fault = sameRowFault(table); !fault.empty()) return Failure{std::move(fault)};
+    const auto stimulus = std::ranges::find(names, "stimulus", &ColumnName::ours);
+    if (const auto at = table.column(stimulus == names.end() ? "stimulus" : stimulus->theirs);
+        at && trialHeadOf(table.comments).empty())
+        for (const CsvRow& row : table.rows)
+            if (leftOut.isNoAnswer("", row.cells[*at])) leftOut.stimuli.insert(row.cells[*at]);
     if (std::string fault = takeColumns(table, names, leftOut); !fault.empty())
         return Failure{std::move(fault)};
-    takeOthersWords(table);
+    takeOthersWords(table, leftOut);
     if (std::string fault = doubledRowFault(table, !names.empty()); !fault.empty())
         return Failure{std::move(fault)};
     return read;
@@ -260,9 +274,7 @@ namespace {
 constexpr std::size_t mostNamed = 6; // participants, and tables of one, that a message lists
 
 std::string tablesOf(const std::vector<std::string>& names) {
-    std::string words;
-    for (std::size_t i = 0; i < names.size() && i < mostNamed; ++i)
-        words.append(i ? ", " : "").append(names[i]);
+    const std::string words = joined(std::span{names}.first(std::min(names.size(), mostNamed)), ", ");
     return names.size() > mostNamed ? words + " ..." : words;
 }
 

@@ -47,6 +47,10 @@ struct RowsLeftOut {
     /// Of each of their participants: main trials among them, and trainings beside them.
     std::map<std::string, std::array<std::size_t, 2>> unanswered;
     std::set<std::string> columns; ///< that are not named
+    std::set<std::string> stimuli; ///< of the name of no answer: an answer of it is one
+    /// Other programs' words for none (null, NA), where a column has no codes; None may be a group.
+    bool isNoAnswer(std::string_view column, const std::string& cell) const;
+    std::string stimuliWords() const; ///< on those; empty: there is none
 };
 
 /// A table in UTF-8, one row per trial; otherwise one line on what is not as expected. With `names` it has
@@ -90,7 +94,7 @@ public:
         notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return rows.didNotLeave(row); });
     }
 
-    std::size_t leftOut() const noexcept { return leftOut_.rows; } ///< rows dropped for an empty mapped cell
+    const RowsLeftOut& leftOut() const noexcept { return leftOut_; }
 
     std::size_t notLeft() const noexcept { return notLeft_; } ///< rows that did not leave as planned
 

@@ -181,28 +181,20 @@ std::string_view withoutVersion(std::string_view header) {
     return line.substr(std::min(line.find(" protocol="), line.size()));
 }
 
-/// The value of `key` in the first line.
-std::string_view valueOf(std::string_view line, std::string_view key) {
-    const auto at = line.find(" " + std::string(key) + "=");
-    if (at == std::string_view::npos) return {};
-    const auto rest = line.substr(at + key.size() + 2);
-    return rest.substr(0, rest.find_first_of(" \n"));
-}
-
 /// The first key whose value differs.
 std::string headFault(std::string_view found, std::string_view expected) {
-    found = found.substr(0, found.find('\n'));
-    expected = expected.substr(0, expected.find('\n'));
-    for (const std::string_view key : {"protocol", "participant", "number", "observer", "seed"})
-        if (valueOf(found, key) != valueOf(expected, key))
-            return "expected trials of " + std::string(key) + " " +
-                   cleanLine(std::string(valueOf(expected, key))) + ", found " +
-                   cleanLine(std::string(valueOf(found, key)));
-    if (valueOf(found, "hash") == valueOf(expected, "hash"))
+    const auto headOf = [](std::string_view text) {
+        return trialHeadOf({std::string{text.substr(1, text.find('\n') - 1)}});
+    };
+    TrialHead own = headOf(found), wanted = headOf(expected);
+    for (const std::string key : {"protocol", "participant", "number", "observer", "seed"})
+        if (own[key] != wanted[key])
+            return "expected trials of " + key + " " + cleanLine(wanted[key]) + ", found " +
+                   cleanLine(own[key]);
+    if (own["hash"] == wanted["hash"])
         return "expected the columns of a trial file of this protocol, found others";
-    return "was begun with another version of the protocol " + std::string(valueOf(expected, "protocol")) +
-           " (hash " + cleanLine(std::string(valueOf(found, "hash"))) + ", now " +
-           std::string(valueOf(expected, "hash")) +
+    return "was begun with another version of the protocol " + wanted["protocol"] + " (hash " +
+           cleanLine(own["hash"]) + ", now " + wanted["hash"] +
            "), so it does not go on: keep it, and begin anew in another folder";
 }
 
@@ -250,7 +242,7 @@ std::string trialRow(const Protocol& protocol, const Participant& participant, c
 
 Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol,
                               const Participant& participant) {
-    const std::string header = trialHeader(protocol, participant, "");
+    const std::string header = trialHeader(protocol, participant, "0"); // of any version
     TrialLog log;
     log.columns = trialColumnsOf(protocol);
     const std::size_t end = text.rfind('\n');

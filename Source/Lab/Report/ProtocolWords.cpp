@@ -60,15 +60,9 @@ std::string setWords(const CallSet& set) {
     return std::string{"calls of physvib"} + (set.factors.empty() ? "" : " by ") +
            joinedWords(set.factors, ", ",
                        [](const StudyFactor& factor) {
-                           return factor.name + " (" +
-                                  joinedWords(factor.values, "; ",
-                                              [](const std::string& value) { return inFull(value); }) +
-                                  (factor.labels.empty()
-                                       ? ")"
-                                       : ", called " +
-                                             joinedWords(factor.labels, "; ",
-                                                         [](const std::string& label) { return label; }) +
-                                             ")") +
+                           return factor.name + " (" + joinedWords(factor.values, "; ", inFull) +
+                                  (factor.labels.empty() ? ")"
+                                                         : ", called " + joined(factor.labels, "; ") + ")") +
                                   (factor.alternative.empty()
                                        ? std::string{}
                                        : " of " + factor.alternative + ", otherwise " + factor.otherwise);
@@ -244,13 +238,9 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     if (session.bothOrders) words += ", both orders of the alternatives";
     if (!session.alternatives.empty())
         words += "; alternatives " + joinedWords(session.alternatives, ", ", alternativeWords);
-    if (!session.objects.empty())
-        words += "; objects " +
-                 joinedWords(session.objects, ", ", [](const std::string& object) { return object; });
+    if (!session.objects.empty()) words += "; objects " + joined(session.objects, ", ");
     if (session.answer() == AnswerKind::scores) words += scaleWords(session);
-    if (!session.answers.empty())
-        words +=
-            "; answers " + joinedWords(session.answers, ", ", [](const std::string& one) { return one; });
+    if (!session.answers.empty()) words += "; answers " + joined(session.answers, ", ");
     if (session.comparesPairs) words += "; each trial has two of the stimuli, every two of them";
     if (session.isOnce) words += "; on the condition as a whole, with nothing felt";
     if (session.adjustment) words += adjustmentWords(*session.adjustment);

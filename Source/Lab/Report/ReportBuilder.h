@@ -119,9 +119,9 @@ void tellPlaceErrors(ReportBuilder& report);    ///< targets without a grid: con
 void tellChoices(ReportBuilder& report);        ///< Fig. 5.8, 5.9
 void tellRatings(ReportBuilder& report);        ///< Fig. 5.13, 5.14
 void tellLevels(ReportBuilder& report); ///< staircases, adjustments, magnitudes; psychometric functions
-/// A chart of each condition's answers, and functions if somebody has one.
-void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const PsychometricModel& model,
-                   const FitWords& words, bool isFitted);
+/// A chart of each condition's answers, and functions if somebody has one, in the table `name`.
+void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const AnalysisJob& fit,
+                   const std::string& name);
 /// Counts answers in words by stimulus; true if there are any.
 bool tellDescriptions(ReportBuilder& report);
 

@@ -31,7 +31,7 @@ std::vector<IdentifiedCondition> conditionsOf(const Identified& data, int tolera
                                 informationTransfer(matrix),
                                 {},
                                 {}};
-        for (const auto& own : transferByParticipant(trials)) {
+        for (const auto& own : comparable(transferByParticipant(trials), matrix.stimuli())) {
             one.shares.push_back(100.0 * static_cast<double>(own.matrix.correct()) /
                                  static_cast<double>(own.matrix.trials()));
             if (own.matrix.stimuli() == matrix.stimuli()) one.bits.push_back(own.transfer.bestBits());
@@ -79,19 +79,13 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
     for (int c = 1; c <= columns; ++c) chart.columns.push_back(std::to_string(c));
     chart.values.resize(static_cast<std::size_t>(rows * columns));
     chart.halfIntervals.resize(chart.values.size());
-    // stimulus, participant -> hits, trials
-    std::map<std::string, std::map<std::string, std::pair<double, double>>> counts;
-    for (const auto& trial : trials) {
-        auto& [hits, all] = counts[trial.stimulus][trial.participant];
-        hits += trial.stimulus == trial.response;
-        all += 1.0;
-    }
+    std::map<std::string, std::vector<double>> shares; // by stimulus
+    for (const auto& own : transferByParticipant(trials))
+        for (std::size_t i = 0; i < own.matrix.stimuli(); ++i)
+            shares[own.matrix.label(i)].push_back(100.0 * shareCorrect(own.matrix, i));
     for (std::size_t i = 0; i < cells.size(); ++i) {
-        std::vector<double> shares;
-        for (const auto& [participant, count] : counts[condition.matrix.label(i)])
-            shares.push_back(100.0 * count.first / count.second);
         const auto at = static_cast<std::size_t>((cells[i].row - 1) * columns + cells[i].column - 1);
-        const Moments moments{shares};
+        const Moments moments{shares[condition.matrix.label(i)]};
         chart.values[at] = moments.mean;
         chart.halfIntervals[at] = moments.halfInterval();
     }
@@ -138,11 +132,15 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
                                                 "their logarithm: compare conditions of as many stimuli and "
                                                 "trials only.");
     }
+    const auto isOfAll = [](const auto& c) { return c.shares.size() > c.bits.size(); };
     BarChart pc = barsOf(report.frame("Percent correct" + words), "correct (%)", all,
                          [](const auto& c) { return withInterval(c.shares); });
     pc.most = 100.0;
-    report.page.figure({barChart(pc)}, "Mean percent correct" + words + report.asThesis("Fig. 3.12, 4.3") +
-                                           report.intervals() + ".");
+    report.page.figure({barChart(pc)},
+                       "Mean percent correct" + words + report.asThesis("Fig. 3.12, 4.3") +
+                           report.intervals() +
+                           (std::ranges::any_of(all, isOfAll) ? ", each of the stimuli that there are."
+                                                              : ", without those who lack a stimulus."));
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
         const auto& trials = data.conditions[c].trials;

@@ -21,15 +21,11 @@ double guessOf(const ReportTrials& trials) {
 
 /// Of tables that do not say how levels were chosen.
 void tellFits(ReportBuilder& report) {
-    report.page.subheading("Psychometric functions");
     AnalysisJob fit = report.options();
     fit.model.guess = report.trials.guess;
-    const bool isFitted = report.analysis("psychometric", fit, "psychometric.csv").error.empty();
     const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"level_db", "correct", false});
     if (!data) return report.page.note(data.error);
-    const FitWords words = fitWords(report.trials.columns);
-    report.half = words.half(fit.model);
-    tellFunctions(report, data.value, fit.model, words, isFitted);
+    tellFunctions(report, data.value, fit, "psychometric.csv");
 }
 
 /// The answers by level, and the threshold that the method found.
@@ -96,8 +92,13 @@ void tellEndsOfRanges(ReportBuilder& report) {
 
 } // namespace
 
-void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const PsychometricModel& model,
-                   const FitWords& words, bool isFitted) {
+void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const AnalysisJob& fit,
+                   const std::string& name) {
+    report.page.subheading("Psychometric functions");
+    const bool isFitted = report.analysis("psychometric", fit, name).error.empty();
+    const FitWords words = fitWords(report.trials.columns, fit.level, fit.measure);
+    const PsychometricModel& model = fit.model;
+    const std::string half = report.half = words.half(model);
     std::vector<std::string> charts;
     for (const auto& condition : data.conditions)
         charts.push_back(psychometricChart(
@@ -106,7 +107,6 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, co
     const std::string caption = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
                                 ". Circles: all participants' trials, larger where there were more";
     if (!isFitted) return report.page.figure(charts, caption + ".");
-    const std::string half = words.half(model);
     report.page.figure(
         charts,
         caption + "; thin lines: the function of each participant who has one; thick: that of the mean " +
@@ -120,7 +120,8 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, co
                  ? "a guess rate of " + numberText(std::round(1000.0 * model.guess) / 10.0) + " % and "
                  : "") +
             "lapse rates of up to " + numberText(100.0 * model.mostLapses()) +
-            (model.guess > 0.0 ? " %." : " % at both ends, the same at each."));
+            (model.guess > 0.0 ? " %." : " % at both ends, the same at each.") +
+            " The JND is half of what lies between a quarter and three quarters.");
 }
 
 void tellLevels(ReportBuilder& report) {

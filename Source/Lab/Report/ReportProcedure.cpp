@@ -129,12 +129,8 @@ void tellCalls(ReportBuilder& report) {
     }
 }
 
-/// "6 female, 5 male, 1 not known": counts of each word. `strangers`: participants without an entry.
-std::string countsOf(const std::vector<const PersonFacts*>& people, std::size_t strangers,
-                     std::string PersonFacts::*field) {
-    std::map<std::string, std::size_t> counts;
-    if (strangers > 0) counts[""] = strangers;
-    for (const PersonFacts* const person : people) ++counts[person->*field];
+/// "6 female, 5 male, 1 not known"; empty where nothing is known.
+std::string countsOf(const std::map<std::string, std::size_t>& counts) {
     std::string words;
     for (const auto& [word, number] : counts)
         if (!word.empty())
@@ -168,10 +164,8 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
     for (const auto& [code, own] : attended) // in rows, or in the table of people
         if (const auto* const person = facts.person(code); !facts.isExcluded(code) && own.main > 0)
             ++groups[own.group.empty() && person ? person->group : own.group];
-    std::vector<std::string> sizes;
-    for (const auto& [group, size] : groups)
-        sizes.push_back(std::to_string(size) + (group.empty() ? " not known" : " " + group));
-    if (groups.size() > groups.count("")) report.page.paragraph("Groups: " + listed(sizes) + ".");
+    if (const std::string words = countsOf(groups); !words.empty())
+        report.page.paragraph("Groups: " + words + ".");
     const Moments moments{ages};
     if (!ages.empty())
         report.page.paragraph(
@@ -182,9 +176,13 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
                                     numberText(*std::ranges::max_element(ages)) + " (") +
             std::to_string(ages.size()) + " of " + std::to_string(people.size() + strangers) + " known).");
     for (const auto& [name, field] :
-         {std::pair{"Sex: ", &PersonFacts::sex}, {"Handedness: ", &PersonFacts::handedness}})
-        if (const std::string words = countsOf(people, strangers, field); !words.empty())
+         {std::pair{"Sex: ", &PersonFacts::sex}, {"Handedness: ", &PersonFacts::handedness}}) {
+        std::map<std::string, std::size_t> counts;
+        if (strangers > 0) counts[""] = strangers;
+        for (const PersonFacts* const person : people) ++counts[person->*field];
+        if (const std::string words = countsOf(counts); !words.empty())
             report.page.paragraph(name + words + ".");
+    }
     if (!facts.ethics.empty()) report.page.paragraph("Ethics: " + facts.ethics);
     if (!facts.consent.empty()) report.page.paragraph("Consent: " + facts.consent);
     if (facts.people.empty())
@@ -277,8 +275,9 @@ void tellParticipants(ReportBuilder& report) {
     tellSameNumbers(report.page, people);
     report.page.subheading("Exclusions");
     if (!report.trials.protocol && hasAdaptiveRows(report.trials))
-        report.page.note("whether everyone finished is not known: levels followed the answers, and the "
-                         "protocol, which says when that ends, is not known");
+        report.page.note(
+            "whether everyone finished, and who was at an end of the levels, is not known: levels "
+            "followed the answers, and the protocol, which says both, is not known");
     if (exclusions.empty())
         report.page.paragraph("Nobody and no main trial is left out before the analyses, each of which names "
                               "whom it leaves out.");

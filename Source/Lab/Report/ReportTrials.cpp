@@ -144,6 +144,8 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
         return Failure{texts.front().first + ": expected a trial that left as planned, found none: " +
                        notLeftWords(trials.notLeft.size())};
     if (std::string note = shared.note(); !note.empty()) trials.notes.push_back(std::move(note));
+    if (std::string note = trials.leftOut.stimuliWords(); !note.empty())
+        trials.notes.push_back(std::move(note));
     if (const auto& unused = trials.leftOut.columns; !unused.empty())
         trials.notes.push_back("columns that --columns does not name, and that are not used: " +
                                joined(unused, ", "));
@@ -248,7 +250,7 @@ Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_v
     for (const CsvRow& row : table.rows) {
         const auto cell = [&](std::string_view column) {
             const auto at = table.column(column);
-            return at ? row.cells[*at] : std::string{};
+            return at && !RowsLeftOut{}.isNoAnswer(column, row.cells[*at]) ? row.cells[*at] : std::string{};
         };
         PersonFacts facts{cell("participant"), {},           cell("sex"), cell("handedness"),
                           cell("excluded"),    cell("group")};

@@ -96,24 +96,22 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
 void tellConstantStimuli(ReportBuilder& report) {
     AnalysisJob fit = report.options();
     fit.level = "stimulus";
-    std::string measure = "correct";
     const auto sessions =
         report.trials.protocol ? report.trials.protocol->sessions : std::vector<SessionPlan>{};
     for (const SessionPlan& session : sessions) {
+        if (session.isTraining) continue;
         if (!session.correct.empty()) fit.model.guess = session.guessRate();
         if (session.answers.size() == 2) // of one interval: half way is subjective equality
-            fit.model.guess = 0.0, measure = fit.measure = "choice=" + session.answers.back();
+            fit.model.guess = 0.0, fit.measure = "choice=" + session.answers.back();
     }
-    const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"stimulus", measure, false});
+    const auto data =
+        report.read(readLevelAnswers,
+                    LevelAnswerColumns{"stimulus", fit.measure.empty() ? "correct" : fit.measure, false});
     const auto hasLevels = [](const auto& one) { // two are a factor's
         return countByLevel(one.trials, [](const LevelAnswer& trial) { return trial.counted(); }).size() > 2;
     };
     if (!data || !report.trials.knowTasks() || std::ranges::none_of(data.value.conditions, hasLevels)) return;
-    report.page.subheading("Psychometric functions");
-    const bool isFitted = report.analysis("psychometric", fit, "psychometric-stimuli.csv").error.empty();
-    const FitWords words = fitWords(report.trials.columns, fit.level, measure);
-    report.half = words.half(fit.model);
-    tellFunctions(report, data.value, fit.model, words, isFitted);
+    tellFunctions(report, data.value, fit, "psychometric-stimuli.csv");
 }
 
 } // namespace

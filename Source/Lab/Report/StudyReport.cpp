@@ -231,8 +231,16 @@ std::string simulatedFile(const Protocol& protocol, int number) {
     Experiment experiment{rehearsal, participant};
     const SimulatedObserver observer{ObserverSettings{}, rehearsal, participant};
     std::string text = trialHeader(protocol, participant, PHYSVIB_VERSION);
-    while (!experiment.isDone())
-        text += trialRow(protocol, participant, experiment.take(observer.answer(experiment)));
+    while (!experiment.isDone()) {
+        TrialRecord record = experiment.take(observer.answer(experiment));
+        text += trialRow(protocol, participant, record);
+        if (number > 1 || record.trial.condition > 0 || record.trial.number > 1 ||
+            protocol.sessions[record.trial.session].answerSeconds <= 0.0)
+            continue;
+        record.trial.number = 1'000'000; // one more, as how often time runs out is tested, too
+        record.answer = Answer{}, record.answer.ranOut = true;
+        text += trialRow(protocol, participant, record);
+    }
     return text;
 }
 
@@ -281,15 +289,31 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
     std::vector<std::string> exclusions{
         "all trials of those for whom the table of people has a reason",
         "trials that did not leave as planned, ran out of time or have no answer",
-        "tests leave out who lacks a combination of levels; where somebody does, scores also have a mixed "
-        "model of all (r-cran-lme4); who did not finish is named"};
-    const auto has = [&](auto is) { return std::ranges::any_of(protocol.sessions, is); };
+        "tests leave out who lacks a combination of levels; where somebody does, an analysis of variance "
+        "also "
+        "has a mixed model of all (r-cran-lme4); no factor is tested of which fewer than half of the people "
+        "have all levels; who did not finish is named"};
+    const auto has = [&](auto is) {
+        return std::ranges::any_of(protocol.sessions, [&](const auto& s) { return !s.isTraining && is(s); });
+    };
+    std::vector<std::string> measures;
+    if (has([](const SessionPlan& s) { return s.staircase.has_value(); }))
+        measures.emplace_back(staircaseThresholds);
+    if (has([](const SessionPlan& s) { return s.quest.has_value(); }) && participants > 1)
+        measures.emplace_back(questThresholds);
+    const bool hasFunctions = report.value.files.contains("psychometric-stimuli.csv");
+    if (hasFunctions)
+        measures.emplace_back(
+            "thresholds (of two answers points of subjective equality) and JNDs of each "
+            "participant's logistic function, by maximum likelihood: its level half way up, and "
+            "half of what lies between a quarter and three quarters");
+    if (!measures.empty()) text += listOf("Measures", measures);
     if (has([](const SessionPlan& s) { return s.adaptedAlternative() != nullptr; }))
         exclusions.emplace_back(
             "thresholds of sessions that were not finished, of staircases of fewer than two "
             "reversals, or at an end of the levels (half or more of a staircase's trials or of "
             "the reversals that count; of QUEST+ within half a step)");
-    if (has([](const SessionPlan& s) { return !s.correct.empty() || s.answers.size() == 2; }))
+    if (hasFunctions)
         exclusions.emplace_back(
             "functions of levels that are numbers: of answers that do not rise, that a constant "
             "fits as well (likelihood ratio, p > 0.05), of widths of 20 times the range of the "
@@ -301,7 +325,9 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
          "variance",
          std::string{"of the pairs of a factor "} +
              (protocol.name.ends_with(thesisSuffix) ? "Bonferroni's" : "Holm's") +
-             "; Holm's of shares against chance, over all lines, and of several scales or alternatives"});
+             "; Holm's of shares against chance, over all lines, of an effect over several scales or "
+             "alternatives, and of all pairs of a factor over more than two alternatives",
+         "over those tests that can be made: what cannot be tested is named, and counts in none"});
     text += listOf("Tests over participants, as analysis.R runs them in R", tests);
     if (tests.empty())
         text += report.value.files.contains(testsTable) ? "none\n" : std::string{notListed} + "\n";

@@ -6,7 +6,7 @@ if (length(script) == 1 && basename(script) == "analysis.R") setwd(dirname(scrip
 options(warn = -1) # R warns of ties in rank tests, where p is not exact, and of names in an appended table
 if ("quiet" %in% commandArgs(TRUE)) sink("tests.txt")
 
-# All cells as text: 01 is not 1, and NA may be a code. The apostrophe before what a spreadsheet would take for a formula goes.
+# All cells as text: 01 is not 1, and NA may be a code, though of no group. The apostrophe before what a spreadsheet would take for a formula goes.
 # A participant's group stands in the rows, in participants.csv, or in the trials that a table is of. Trainings, and trials that did not leave, are left out.
 table.of <- function(file) {
   read <- function(file) {
@@ -18,6 +18,7 @@ table.of <- function(file) {
   for (others in setdiff(c("participants.csv", "trials.csv"), file)) # nothing is read twice
     if (!("group" %in% names(d)) && "participant" %in% names(d) && file.exists(others) && all(c("participant", "group") %in% names(people <- read(others))))
       d$group <- people$group[match(d$participant, people$participant)]
+  if ("group" %in% names(d)) d$group[d$group %in% "NA"] <- ""
   if ("phase" %in% names(d)) d <- d[d$phase != "training", ]
   if ("left" %in% names(d)) d <- d[d$left != "0", ]
   d
@@ -61,13 +62,14 @@ rows.of <- function(file, measure, factors, where = character(), between = chara
   d <- d[!(d$participant %in% unknown), ]
   all <- c(attr(file, "absent"), d$participant)
   column <- if (measure %in% names(d)) measure else sub("=.*", "", measure)
-  d <- d[!(d[[column]] %in% c("", "NA")), ]
+  d <- d[!no.value(d, column, measure), ]
   y <- if (measure %in% names(d)) suppressWarnings(as.numeric(d[[column]])) else as.numeric(d[[column]] == sub("^[^=]*=", "", measure))
   if (anyNA(y)) stop(paste0("expected numbers in the column ", column, ", found ", d[[column]][is.na(y)][1]))
   rows <- data.frame(id = d$participant, y = y)
   for (i in seq_along(factors)) { own <- level(d, factors[i]); rows[[paste0("w", i)]] <- factor(own, levels = in.order(own)) }
   structure(rows, unknown = unknown, absent = setdiff(all, c(rows$id, unknown)))
 }
+no.value <- function(d, column, measure = column) d[[column]] %in% c("", if (measure %in% names(d) && !(column %in% c("choice", "response"))) "NA") # an answer may be called NA
 groupless <- function(d) {
   several <- tapply(d$group, d$participant, function(g) length(unique(g)) > 1)
   unique(c(d$participant[d$group %in% c("", NA)], if (isTRUE(mean(several) < 0.5)) names(which(several))))
@@ -208,17 +210,22 @@ mixed <- function(test, file, measure, within, between, where) {
   x <- model.matrix(as.formula(paste("~", paste(own, collapse = "*"))), d, lapply(d[own], function(f) "contr.sum"))
   terms <- attr(x, "assign"); labels <- unlist(lapply(seq_along(own), function(m) combn(factors, m, paste, collapse = ":")))
   several <- unlist(lapply(seq_len(length(within) - 1), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE) # all of them are what is left
-  random <- function(id, names) paste0("(1 | ", c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), "")), ")", collapse = " + ")
-  cat("  mixed model: by maximum likelihood, random ", random("participant", within), "\n", sep = "")
-  model <- as.formula(paste("y ~ 0 + x +", random("id", sprintf("w%d", seq_along(within)))))
-  of <- function(x) suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE))
-  fit <- function(x) as.numeric(logLik(of(x)))
-  if (lme4::VarCorr(of(x))$id[1] == 0) stop("participants' variance is estimated as 0, so cells would count as people")
-  for (t in seq_along(labels)) {
-    chi <- max(0, 2 * (fit(x) - fit(x[, terms != t, drop = FALSE])))
-    result(test, paste(labels[t], "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t),
-           note = "p too small where people are few")
+  random <- function(id, names) c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), ""))
+  parts <- setNames(random("participant", within), random("id", sprintf("w%d", seq_along(within))))
+  cat("  mixed model: by maximum likelihood, random ", paste0("(1 | ", parts, ")", collapse = " + "), "\n", sep = "")
+  model <- as.formula(paste("y ~ 0 + x +", paste0("(1 | ", names(parts), ")", collapse = " + ")))
+  fit <- function(x) {
+    m <- suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE)); variances <- vapply(lme4::VarCorr(m), `[`, 0, 1)
+    zero <- names(variances)[variances <= 1e-8 * sigma(m)^2]
+    if ("id" %in% zero) stop("participants' variance is estimated as 0, so cells would count as people")
+    list(l = as.numeric(logLik(m)), zero = parts[zero], failed = any(grepl("converge", unlist(m@optinfo$conv$lme4$messages))))
   }
+  all <- fit(x)
+  for (t in seq_along(labels)) attempt(test, paste(labels[t], "mixed model"), {
+    less <- fit(x[, terms != t, drop = FALSE]); chi <- max(0, 2 * (all$l - less$l)); zero <- unique(c(all$zero, less$zero))
+    result(test, paste(labels[t], "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t),
+           note = paste(c("p too small where people are few", if (length(zero) > 0) paste("variance of", paste(zero, collapse = " and of "), "estimated as 0"), if (all$failed || less$failed) "did not converge"), collapse = ", "))
+  })
 }
 friedman <- function(test, file, measure, within = character(), where = character(), between = character(), tested = c(within, between)) { cat(test, "\n", sep = ""); attempt(test, "all", {
   rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
@@ -272,16 +279,17 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
                            note = ranks.note(t, if (is.signed) sum(different == 0) else 0, "without a difference")))
     })
     ps <- sapply(tests, function(one) one$p)
-    corrected <- p.adjust(ps, correction, length(ps))
+    corrected <- p.adjust(ps, correction); tested <- sum(!is.nan(ps)) # a pair that cannot be tested is no chance of a false finding
+    if (tested > 0 && tested < length(ps)) cat("  ", f, ": ", c(holm = "Holm's", bonferroni = "Bonferroni's")[correction], " correction is over the ", tested, " of ", length(ps), " pairs that could be tested\n", sep = "")
     if (!is.within) cat("  ", f, ": ", paste0(names(own), " n = ", lengths(own), sapply(own, function(y) paste(if (by == "t") ", mean" else ", median", format(signif(if (by == "t") mean(y) else median(y), 4), digits = 4))),
                         sapply(own, function(y) if (by == "t" && length(y) > 1) paste(", standard deviation", format(signif(sd(y), 3), digits = 3)) else ""), collapse = "; "), "\n", sep = "")
     for (k in seq_along(tests)) {
       one <- tests[[k]]; effect <- paste0(f, ": ", two[[k]][1], " - ", two[[k]][2])
       if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = "the differences do not vary")
       else result(test, effect, if (by == "t") "t" else if (is.signed) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], correction, size = one$size,
-                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], note = c(one$note, "")[1], lines = length(ps))
+                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], note = c(one$note, "")[1], lines = tested)
     }
-    if (by == "t" && is.within && !all(is.nan(ps))) for (alpha in unique(c(0.05, 0.05 / length(ps)))) attempt(test, "power", {
+    if (by == "t" && is.within && tested > 0) for (alpha in unique(c(0.05, 0.05 / tested))) attempt(test, "power", {
       of <- if (nlevels(groups) > 1) table(groups) else n
       found <- uniroot(function(d) pt(qt(1 - alpha / 2, n - length(of)), n - length(of), d * length(of) / sqrt(sum(1 / of)), lower.tail = FALSE) - 0.8, c(0, 100), tol = 1e-9)$root
       cat("  power: n = ", n, " finds d_z = ", round(found, 2), " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
@@ -297,18 +305,27 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   d <- d[d$choice != "", ]
   words <- alternatives.of(d); k <- length(words)
   if (k < 2) stop(paste("expected two alternatives or more, found", k))
-  if (is.null(factors)) { design <- design.of(d); factors <- c(design$within, design$between) }
+  there <- union(everybody, d$participant); gone <- character()
+  if (is.null(factors)) { # the same rows as where levels are compared
+    lone <- lone.levels(d, c("group", "condition", "stimulus")); gone <- lone$gone
+    alike <- alike.for(lone$d, design.of(lone$d)); d <- alike$d; design <- alike$design; factors <- c(design$within, design$between)
+    for (note in c(lone$notes, design$notes)) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = note)
+  } else design <- list(within = Filter(function(f) any(tapply(level(d, f), d$participant, function(l) length(unique(l))) > 1), factors))
+  cell <- do.call(paste, c(list(character(nrow(d))), lapply(design$within, function(f) level(d, f)), sep = "\r"))
+  whole.in <- function(of) { n <- tapply(cell[of], d$participant[of], function(own) length(unique(own))); names(n)[n == length(unique(cell[of]))] }
   unknown <- if ("group" %in% factors) groupless(d) # counts in no line of a group
   words.of <- function(f) { words <- paste0(f, "=", level(d, f)); words[f == "group" & d$participant %in% unknown] <- NA; words }
   marks <- lapply(factors, words.of)
   if (length(factors) > 1) { all <- do.call(paste, marks); all[d$participant %in% unknown] <- NA; marks <- c(marks, list(all)) }
   if (length(unknown) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of lines of a group"))
-  if (length(absent <- setdiff(everybody, d$participant)) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = values.lacking(absent))
+  if (length(absent <- setdiff(there, c(d$participant, gone))) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = values.lacking(absent))
+  if (length(lacking <- setdiff(d$participant, whole.in(TRUE))) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = paste0(values.lacking(lacking), ": left out of lines over what they lack"))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
   if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
   lines <- expand.grid(group = groups, word = if (k == 2) words[1] else words, stringsAsFactors = FALSE)
   tests <- Map(function(group, word) {
     of <- if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m %in% group))
+    of <- of & d$participant %in% whole.in(of)
     hits <- tapply(d$choice[of] == word, d$participant[of], sum); n <- tapply(of[of], d$participant[of], length)
     lead <- (k * hits - n) / n # leads of the same size tie to the bit
     away <- lead[lead != 0]
@@ -319,7 +336,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   corrected <- p.adjust(ps, "holm")
   for (i in seq_along(tests)) {
     one <- tests[[i]]; effect <- if (k == 2) lines$group[i] else paste0(lines$word[i], ", ", lines$group[i])
-    if (is.na(ps[i])) result(test, effect, "V", NA, NA, one$n, note = "one participant, or shares of chance alone")
+    if (is.na(ps[i])) result(test, effect, "V", NA, NA, one$n, note = "fewer than two participants with all of it, or shares of chance alone")
     else result(test, effect, if (is.null(one$t$parameter)) "V" else paste("exact binomial, of", one$t$parameter, "people who lean to one side those to", lines$word[i]), one$t$statistic, ps[i], one$n, p_corrected = corrected[i],
                 correction = "holm", size = paste("share of", lines$word[i]), effect_size = one$share, note = ranks.note(one$t, one$equal, "at chance"))
   }
@@ -423,7 +440,7 @@ spoken <- c(percent_correct = "percent correct", distance = "distance from the t
 everybody <- character() # who has trials
 compare <- function(what, d, measure, kind = "scores", columns = c("group", "condition", "stimulus"), over = character()) {
   column <- sub("=.*", "", measure); all <- union(everybody, d$participant)
-  d <- d[!(d[[column]] %in% c("", "NA")), ]
+  d <- d[!no.value(d, column, measure), ]
   if (length(unique(d$participant)) < 2) return(invisible())
   below <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) < 0) else 0
   if (below > 0) { kind <- "scores"; what <- sub("magnitudes", "values", what) }
@@ -461,18 +478,18 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
                correction = if (as.published) "bonferroni" else "holm", between = few(design$between), paired = !as.published)
   if (length(few(factors)) < length(factors)) result(paste("pairs of", name), "factors", "", NA, NA, length(unique(d$participant)), note = "more than 12 levels")
 }
-# Several scales, or shares of several alternatives, ask one question each: Holm's correction over all tests that were made of an effect. Where some
-# scales have a test of a whole factor, factors whose two levels were compared as a pair alone, by ranks, stand beside them.
-across <- function(tests, what, pairs = TRUE) {
-  at <- which(results$test %in% tests & results$statistic %in% c("F", "chi-squared", "V", "W") & !is.na(results$p))
-  name <- sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|(Friedman's|Kruskal and Wallis'|Friedman's and Kruskal and Wallis') test|pairs by ranks) of ", "", results$test[at]))
-  ranks <- results$statistic[at] %in% c("V", "W"); effect <- results$effect[at]; all <- unique(name)
-  if (!pairs && !all(ranks)) { effect[ranks] <- sub(": .*", "", effect[ranks]); own <- !(ranks & paste(name, effect) %in% paste(name, effect)[!ranks]); at <- at[own]; name <- name[own]; effect <- effect[own] }
-  for (one in unique(effect)) {
-    i <- at[effect == one]; of <- name[effect == one]
-    results$p_across[i] <<- p.adjust(ifelse(is.na(results$p_corrected[i]), results$p[i], results$p_corrected[i]), "holm")
-    if (length(i) > 1) cat("over ", what, ", ", one, ": Holm's p of ", length(i), " tests: ", paste(of, ifelse(results$p_across[i] < 1e-4, "< 0.0001",
-                           signif(results$p_across[i], 3)), collapse = ", "), if (length(no <- setdiff(all, of)) > 0) paste("; none was made of", paste(no, collapse = ", ")), "\n", sep = "")
+# Several scales, or shares of several alternatives (`all`), ask one question each: Holm's correction over the tests of an effect that could be made. A
+# pair that is all of a factor, as of two levels by ranks, is its test. Other pairs are of alternatives one family, all of a factor; of scales each its own.
+across <- function(tests, what, all, pairs = TRUE) {
+  at <- which(results$test %in% tests & results$statistic %in% c("F", "chi-squared", "V", "W") & !is.na(results$p)); lines <- results[at, ]
+  name <- sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|(Friedman's|Kruskal and Wallis'|Friedman's and Kruskal and Wallis') test|pairs by ranks) of ", "", lines$test))
+  p <- ifelse(lines$correction == "Greenhouse-Geisser", lines$p_corrected, lines$p)
+  ranks <- lines$statistic %in% c("V", "W"); factor <- sub(": .*", "", lines$effect); pair <- ranks & paste(name, factor) %in% paste(name, factor)[!ranks]
+  effect <- ifelse(pair, paste("pairs of", factor), ifelse(ranks, factor, lines$effect)); words <- ifelse(pair, paste(name, substring(lines$effect, nchar(factor) + 3)), name)
+  for (one in unique(effect[pairs | !pair])) {
+    i <- which(effect == one); results$p_across[at[i]] <<- p.adjust(p[i], "holm"); p.across <- results$p_across[at[i]]
+    if (length(i) > 1 || (length(all) > 1 && !grepl("mixed model", one))) cat("over ", what, ", ", one, ": Holm's p of ", length(i), if (length(i) == 1) " test: " else " tests: ", paste(words[i], ifelse(p.across < 1e-4, "< 0.0001",
+                             signif(p.across, 3)), collapse = ", "), if (length(no <- setdiff(all, name[i])) > 0) paste("; none was made of", paste(no, collapse = ", ")), "\n", sep = "")
   }
 }
 # Objects that were rated side by side are levels of a factor; one that was also felt openly, the hidden reference, is looked at.
@@ -541,7 +558,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
   each <- function(task, column, run) {
     if (!(column %in% names(d))) return(invisible())
     own <- if (is.told) d[d$task == task, ] else d
-    own <- own[!(own[[column]] %in% c("", "NA")), ]
+    own <- own[!no.value(own, column), ]
     sessions <- if (is.told) unique(own$session) else ""
     for (s in sessions) run(if (is.told) own[own$session == s, ] else own, if (length(sessions) > 1) paste(" in", s) else "")
   }
@@ -562,6 +579,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
+    cat("variable error: standard deviation of a participant's answers around their own mean of a target, both axes together\n")
     compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"), over = "target")
     targets <- c("target_y", "target_x"); if (!all(targets %in% names(own))) targets <- c("target_row", "target_column") # which number those of other programs
     for (t in targets) own[[t]] <- as.character(signif(as.numeric(own[[t]]), 4))
@@ -584,7 +602,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
     stimuli <- if ("stimulus" %in% names(own)) "stimulus"; isFunction <- file.exists("psychometric-stimuli.csv") # which tells more of levels
     for (a in if (length(names) == 2) names[1] else names)
       compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks", c("group", "condition", if (!isFunction) stimuli), if (isFunction) stimuli)
-    across(setdiff(unique(results$test), before), "alternatives")
+    across(setdiff(unique(results$test), before), "alternatives", paste0("choice=", if (length(names) == 2) names[1] else names, words))
   })
   before <- unique(results$test)
   aside <- character() # sessions whose scales are objects
@@ -594,14 +612,17 @@ study <- function(study, scales = character(), points = character(), half = "thr
     objects <- Filter(function(o) all(own[[o]] != ""), objects)
     if (length(objects) > 1) { aside <- c(aside, s); side.by.side(own, objects, if (length(unique(d$session[d$task == "rate"])) > 1) paste(" in", s) else "") }
   }
-  for (scale in scales) each("rate", scale, function(own, words) {
+  asked <- character()
+  for (scale in scales) { none <- TRUE; each("rate", scale, function(own, words) {
+    none <<- FALSE
     if (is.told && own$session[1] %in% aside) return()
+    asked <<- c(asked, paste0(scale, words))
     if ("stimulus" %in% names(own) && all(grepl(" & ", own$stimulus, fixed = TRUE))) {
       in.pairs(own, scale, words, if (is.told && !(scale %in% points)) 100 else max(as.numeric(own[[scale]]))) # of points, and of other programs, the largest that was given
       compare(paste0(scale, words), own, scale, columns = c("group", "condition"))
     } else compare(paste0(scale, words), own, scale, if (scale %in% points) "ranks" else "scores")
-  })
-  if (length(scales) > 1) across(setdiff(unique(results$test), before), "scales", pairs = FALSE)
+  }); if (none) asked <- c(asked, scale) }
+  if (length(scales) > 1) across(setdiff(unique(results$test), before), "scales", asked, pairs = FALSE)
   if (file.exists("thresholds.csv")) parts.in(table.of("thresholds.csv"), function(own, session) {
     for (m in unique(own$method)) compare(paste0("threshold by ", m, session), own[own$method == m, ], "threshold", columns = c("group", "condition"))
   }) else from("psychometric.csv", c("threshold", "jnd"))

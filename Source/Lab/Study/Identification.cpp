@@ -155,4 +155,10 @@ std::vector<ParticipantTransfer> transferByParticipant(const std::vector<Identif
     return transfers;
 }
 
+std::vector<ParticipantTransfer> comparable(std::vector<ParticipantTransfer> people, std::size_t stimuli) {
+    const auto lacks = [=](const ParticipantTransfer& own) { return own.matrix.stimuli() != stimuli; };
+    if (std::ssize(people) - std::ranges::count_if(people, lacks) > 1) std::erase_if(people, lacks);
+    return people;
+}
+
 } // namespace physvib

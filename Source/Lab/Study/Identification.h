@@ -104,6 +104,9 @@ struct ParticipantTransfer {
 /// In the order of first trials; without participants one of an empty name. Any thread (allocates).
 std::vector<ParticipantTransfer> transferByParticipant(const std::vector<IdentificationTrial>& trials);
 
+/// Those of them who had all stimuli, so that means are of the same ones; everybody where fewer than two had.
+std::vector<ParticipantTransfer> comparable(std::vector<ParticipantTransfer> people, std::size_t stimuli);
+
 // Selects the stimuli that participants confused least, for use as tactile icons (thesis 3.2.3).
 
 /// Bits needed for that number of meanings: log2. Any thread.

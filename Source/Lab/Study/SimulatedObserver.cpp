@@ -58,16 +58,11 @@ double comparedLevelDb(const SessionPlan& session) {
 std::optional<ObserverSettings> observerNamed(std::string_view name) {
     ObserverSettings settings;
     settings.name = name;
-    if (name == "simulated") return settings;
-    if (name == "simulated-PHONE")
-        settings.placeBlur = 0.2073;
-    else if (name == "simulated-RING")
-        settings.placeBlur = 0.1524;
-    else if (name == "simulated-thesis")
-        return fittedToTheThesis(settings);
-    else
-        return std::nullopt;
-    return settings;
+    if (name == "simulated-PHONE") settings.placeBlur = 0.2073;
+    if (name == "simulated-RING") settings.placeBlur = 0.1524;
+    if (name == "simulated-thesis") return fittedToTheThesis(settings);
+    return name == "simulated" || settings.placeBlur != ObserverSettings{}.placeBlur ? std::optional{settings}
+                                                                                     : std::nullopt;
 }
 
 SimulatedObserver::SimulatedObserver(ObserverSettings settings, const Protocol& protocol,

@@ -6,7 +6,6 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/QuestMethod.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -267,30 +266,8 @@ auto labelKey(const std::string& label) {
 
 using Run = std::vector<const LevelTrial*>; // one participant's trials of a session, or of one staircase
 
-/// Levels that stayed though as many answers in a row moved others: the ends of a staircase's levels.
-std::set<double> endsOf(const Run& run) {
-    std::set<double> ends;
-    const int none = static_cast<int>(run.size());
-    std::array<int, 2> enough{none, none}; // wrong, right
-    for (const bool isKnown : {false, true}) {
-        int inARow = run.empty() || run.front()->gaps == 0 ? 0 : -none; // behind a gap nobody knows how many
-        for (std::size_t i = 0; i + 1 < run.size(); ++i) {
-            const bool isRight = run[i]->value > 0.5, isNext = run[i + 1]->gaps == run[i]->gaps;
-            const double move = run[i + 1]->levelDb - run[i]->levelDb;
-            const bool isOther = i > 0 && inARow != -none && (run[i - 1]->value > 0.5) != isRight;
-            inARow = isOther ? 1 : inARow + 1;
-            if (isNext && (isRight ? move < 0.0 : move > 0.0))
-                enough[isRight] = inARow > 0 ? std::min(enough[isRight], inARow) : enough[isRight];
-            else if (isNext && isKnown && inARow >= enough[isRight])
-                ends.insert(run[i]->levelDb);
-            if (!isNext || move != 0.0) inARow = isNext ? 0 : -none;
-        }
-    }
-    return ends;
-}
-
 /// NaN: of fewer than two reversals; infinite: of half of the later ones, or of all trials, at an end of the
-/// levels.
+/// levels, if it is known.
 double staircaseThreshold(const Run& run, LevelSummary& summary) {
     std::vector<double> levels;
     for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
@@ -299,9 +276,10 @@ double staircaseThreshold(const Run& run, LevelSummary& summary) {
     if (reversals.size() < 2) return std::numeric_limits<double>::quiet_NaN();
     const std::span later{reversals.begin() + static_cast<std::ptrdiff_t>(reversals.size() / 2),
                           reversals.end()};
-    const auto ends = endsOf(run);
-    const auto atEnd = std::ranges::count_if(later, [&](double level) { return ends.contains(level); });
-    const auto heldAtEnd = std::ranges::count_if(levels, [&](double level) { return ends.contains(level); });
+    const auto isEnd = [&range = run.front()->range](double level) {
+        return range && (level <= range->first || level >= range->second);
+    };
+    const auto atEnd = std::ranges::count_if(later, isEnd), heldAtEnd = std::ranges::count_if(levels, isEnd);
     return 2 * static_cast<std::size_t>(atEnd) >= later.size() || 2 * heldAtEnd >= std::ssize(levels)
                ? std::numeric_limits<double>::infinity()
                : meanOf(reversals, reversals.size() / 2);

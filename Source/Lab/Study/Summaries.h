@@ -44,9 +44,8 @@ struct Moments {
         : n{values.size()} {
         for (const double v : values) mean += v / static_cast<double>(n);
         for (const double v : values) deviation += (v - mean) * (v - mean);
-        deviation = n > 1 && std::ranges::count(values, values.front()) < std::ssize(values)
-                        ? std::sqrt(deviation / static_cast<double>(n - 1))
-                        : 0.0;
+        const bool isRounding = deviation <= 1e-24 * static_cast<double>(n) * mean * mean; // means of thirds
+        deviation = n > 1 && !isRounding ? std::sqrt(deviation / static_cast<double>(n - 1)) : 0.0;
     }
     /// Of the mean; 0 for fewer than two values.
     double standardError() const noexcept {
@@ -161,8 +160,17 @@ struct LevelTrial {
     double levelDb = 0.0;           ///< staircase, QUEST+: level of the trial
     double value = 0.0;             ///< adjustment: dB; magnitude: > 0; else 1 if correct, 0 if not
     std::string session{}, quest{}; ///< QUEST+: the text of its plan (QuestMethod.h)
-    std::size_t gaps = 0; ///< places before it where its session lacks trials, whose answers are not known
+    std::optional<std::pair<double, double>> range{}; ///< staircase: its least and most level, if known
 };
+
+/// What the thresholds of reports and plans are.
+inline constexpr const char
+    *staircaseThresholds =
+        "thresholds of staircases: means of the later half of the reversals that a trial "
+        "followed, so without one that ended the staircase (of an odd number also the middle "
+        "one); of several staircases their mean, and none where one of them has none",
+    *questThresholds = "thresholds by QUEST+: of each participant with the widths that all answers in the "
+                       "condition tell together; intervals are Student's t and the error of these widths";
 
 struct LevelSummary {
     LevelTrial::Kind kind = LevelTrial::Kind::staircase;

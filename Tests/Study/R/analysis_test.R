@@ -72,7 +72,7 @@ for (n in c(2, 3, 6, 49, 50, 51)) for (digits in c(0, 6)) for (k in c(2, 3)) {
     two <- combn(k, 2)
     ps <- apply(two, 2, function(i) { a <- wide[, i[1]]; b <- wide[, i[2]]
       tryCatch(if (by == "t") t.test(a, b, paired = TRUE)$p.value else if (paired) exact.p(a - b) else exact.p(a, b), error = function(e) NaN) })
-    corrected <- p.adjust(ps, correction, length(ps))
+    corrected <- p.adjust(ps, correction)
     for (i in seq_along(ps)) { own <- line(ours, paste0("pair: c", two[1, i], " - c", two[2, i]))
       if (is.nan(ps[i])) { if (own$note == "") fault("pair of ties", words) } else {
         same(paste(by, words), own$p, ps[i]); same(paste(by, correction, words), own$p_corrected, corrected[i]) } }
@@ -422,5 +422,35 @@ if (nrow(line(whole(d, character()), "target_x: 100 - 700")) != 2) fault("which 
 # What the mixed model has is told.
 if (requireNamespace("lme4", quietly = TRUE)) { rows(whole.rows); if (!any(grepl("mixed model: by maximum likelihood, random (1 | participant) + (1 | participant:condition) + (1 | participant:stimulus)",
   capture.output(anova.test("t", "trials.csv", "y", c("condition", "stimulus"))), fixed = TRUE))) fault("a mixed model without its random part") }
+# A pair that cannot be tested counts in no correction, and that is said.
+d <- expand.grid(condition = c("x", "y", "z"), participant = person(6), stringsAsFactors = FALSE); d$y <- as.integer(d$participant) + 10 * (d$condition == "z"); rows(d)
+results <- data.frame(); words <- capture.output(pairs.test("t", "trials.csv", "y", "condition", by = "ranks")); ours <- results
+same("Holm of two of three", line(ours, "condition: x - z")$p_corrected, 0.0625)
+if (!any(grepl("condition: Holm's correction is over the 2 of 3 pairs that could be tested", words))) fault("a smaller family goes without a word")
+# Scales that could not be tested are named, though one is left, or though they have no value.
+d <- expand.grid(condition = c("x", "y", "z"), participant = person(7), stringsAsFactors = FALSE); d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$stimulus <- d$parts <- ""
+d$effort <- rep(c(1, 4, 6), 7); d$calm <- rep(c(2, 1, 5), 7); d$hurry <- 3; d$lost <- ""
+ours <- whole(d, c("effort", "calm", "hurry", "lost"), c("effort", "calm", "hurry"))
+if (!any(grepl("^over scales, condition: Holm's p of 2 tests: effort .*, calm .*; none was made of hurry, lost$", spoken.words))) fault("scales without a test are not named")
+ours <- whole(d, c("effort", "hurry", "lost"), c("effort", "hurry"))
+if (!any(grepl("^over scales, condition: Holm's p of 1 test: effort .*; none was made of hurry, lost$", spoken.words))) fault("one scale that is left says nothing of the others")
+# Pairs of several alternatives are one family, of the p of the tests themselves.
+d <- expand.grid(trial = 1:9, participant = person(12), condition = c("c1", "c2", "c3"), stringsAsFactors = FALSE); d$task <- "choose"; d$session <- "main"; d$phase <- "main"; d$stimulus <- d$correct <- d$level_db <- ""; d$parts <- "A|B|C"
+d$choice <- ifelse(runif(nrow(d)) < ifelse(d$condition == "c1", 0.8, 0.2), "A", sample(c("B", "C"), nrow(d), TRUE)); ours <- whole(d, character())
+own <- ours[grepl("^pairs by ranks of choice=", ours$test), ]; for (i in 1:9) same("pairs over alternatives", own$p_across[i], p.adjust(own$p, "holm")[i])
+if (!any(grepl("^over alternatives, pairs of condition: Holm's p of 9 tests: choice=A c1 - c2 ", spoken.words))) fault("the pairs of alternatives are not one family")
+# Who lacks a condition counts in the shares of conditions that they have alone.
+lost <- d[!(d$participant == "04" & d$condition == "c2"), ]; rows(lost); ours <- told(choices("t", "trials.csv"))
+if (line(ours, "A, all")$n != 11 || line(ours, "A, condition=c1")$n != 12 || !any(grepl("lacking of 04: left out of lines over what they lack", ours$note))) fault("shares against chance are of other conditions")
+same("shares of who has all", line(ours, "A, all")$p, exact.p(as.vector(tapply(lost$choice == "A", lost$participant, function(x) 3 * sum(x) - length(x)))[-4]))
+# NA is an answer where it is one, and no group.
+d$choice <- sub("A", "NA", d$choice); d$group <- ifelse(d$participant < "03", "NA", ifelse(d$participant < "08", "g", "h")); rows(d); ours <- told(compare("choice=NA", table.of("trials.csv"), "choice=NA", "ranks", c("group", "condition")))
+if (any(grepl("NA -|- NA$", ours$effect)) || !any(grepl("01, 02: group not known", ours$note)) || line(ours, "condition")$n != 10) fault("NA is a group, or no answer")
+# Random effects without variance are named.
+if (requireNamespace("lme4", quietly = TRUE)) {
+  d <- expand.grid(condition = c("x", "y", "z"), stimulus = c("s", "t"), participant = person(9), stringsAsFactors = FALSE); own <- rnorm(9)[as.integer(d$participant)]; e <- residuals(lm(rnorm(54) ~ participant * condition + participant * stimulus, d)); d$y <- 3 * own + e; rows(d[-1, ])
+  note <- line(told(anova.test("t", "trials.csv", "y", c("condition", "stimulus"))), "condition mixed model")$note
+  if (!grepl("variance of participant:condition and of participant:stimulus estimated as 0", note)) fault("a singular model goes without a word:", note)
+}
 cat(faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)

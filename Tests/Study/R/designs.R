@@ -76,8 +76,10 @@ reversals <- function(levels) {
 }
 d <- trials("steps")
 own <- do.call(rbind, lapply(split(d, list(d$participant, d$condition)), function(o) {
-  r <- reversals(as.numeric(o$level_db)); data.frame(participant = o$participant[1], condition = o$condition[1], y = mean(r[(floor(length(r) / 2) + 1):length(r)]))
+  r <- reversals(as.numeric(o$level_db)); r <- r[(floor(length(r) / 2) + 1):length(r)]; at.end <- function(levels) mean(levels %in% c(0, 12)) >= 0.5
+  data.frame(participant = o$participant[1], condition = o$condition[1], y = if (at.end(r) || at.end(as.numeric(o$level_db))) NA else mean(r))
 }))
+own <- own[!(own$participant %in% own$participant[is.na(own$y)]), ]
 within("steps", "threshold", own, "condition")
 d <- d[d$choice != "", ]
 
@@ -85,7 +87,7 @@ d <- trials("hurried"); p <- page("hurried"); late <- tapply(d$ran_out == "1", l
 if (all(late == 0) || !all(d$correct[d$ran_out == "1"] == "" & d$response[d$ran_out == "1"] == "")) fault("a trial that ran out has an answer, or none ran out")
 same("hurried, ran out", p$p[grepl("ran out of time in main", p$test) & !is.na(p$p)], exact.p(round(late[, 1] - late[, 2], 9)))
 d <- d[d$ran_out == "0", ]
-right <- 100 * tapply(d$correct == "1", list(d$participant, d$condition), mean)
+right <- 100 * tapply(d$correct == "1", list(d$participant, d$condition), mean); right[tapply(d$stimulus, list(d$participant, d$condition), function(s) length(unique(s))) < 9] <- NA
 same("hurried, percent correct", p$p[startsWith(p$test, "pairs by t of percent correct by ")], t.test(right[, 1], right[, 2], paired = TRUE)$p.value)
 cat(figures, "figures of six designs,", faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)
