@@ -351,10 +351,10 @@ void BodyPanel::resized() {
     source_.setBounds(row);
     for (int k = 0; auto& swatch : materials_) {
         if (k++ % perRow == 0) row = area.removeFromTop(rowHigh);
-        swatch->setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1));
+        swatch->setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1, 0));
     }
     if (std::ssize(materials_) % perRow == 0) row = area.removeFromTop(rowHigh);
-    new_.setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1));
+    new_.setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1, 0));
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},
                                         {&speedName_, &speed_},

@@ -72,7 +72,7 @@ public:
     static constexpr int wide = 208;
 
 private:
-    static constexpr int edge = 5, rowHigh = 23, perRow = 8;
+    static constexpr int edge = 5, rowHigh = 24, perRow = 7;
     int nameHigh() const; ///< in as many lines as it needs
     void edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit);
 
