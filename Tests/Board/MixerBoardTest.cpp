@@ -29,9 +29,7 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     const auto boardText = [&] { return find(window.view(), "Board state")->getDescription(); };
     EXPECT_TRUE(runUntil([&] { return boardText().contains("Board: none"); }));
     window.view().tabs().choose("Output");
-    auto* ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Four-channel board"));
-    ASSERT_NE(ports, nullptr);
-    ports->setSelectedItemIndex(ports->getNumItems() - 1); // another port
+    chooseIn(window.view(), "Device", "Four-channel board: another serial port");
     ASSERT_TRUE(runUntil([&] { return window.view().question() != nullptr; }));
     auto* connect = buttonOf(*window.view().question(), "Connect");
     ASSERT_NE(connect, nullptr);
@@ -50,11 +48,15 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
     })) << window.model().trouble();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("No board"); }));
     EXPECT_FALSE(beside(window.model()).isReady);
-    ports = dynamic_cast<juce::ComboBox*>(find(window.view(), "Four-channel board"));
-    ASSERT_NE(ports, nullptr);
-    EXPECT_TRUE(ports->isShowing()) << "the tab in which it was chosen";
-    EXPECT_TRUE(ports->getText().contains(juce::String{board.port()}))
-        << "what is wanted, though it is not there: " << ports->getText();
+    auto& outputs = dynamic_cast<juce::ComboBox&>(*find(window.view(), "Device"));
+    EXPECT_TRUE(outputs.isShowing()) << "the tab in which it was chosen";
+    EXPECT_EQ(outputs.getText(), "No device + Four-channel board")
+        << "what is wanted, though it is not there";
+    juce::StringArray rows;
+    for (int k = 0; k < outputs.getNumItems(); ++k) rows.add(outputs.getItemText(k));
+    EXPECT_TRUE(
+        rows.contains("Four-channel board: " + juce::String{board.port()} + " is not there yet, in use"))
+        << rows.joinIntoString("; ");
 
     board.start();
     ASSERT_TRUE(runUntil([&] { return beside(window.model()).isReady; }));
@@ -63,6 +65,25 @@ TEST(MixerBoard, IsChosenPlaysIsUnpluggedAndPluggedInAgain) {
         return beside(window.model()).sent > sent + 3 && window.model().trouble().isEmpty();
     })) << window.model().trouble();
     ASSERT_TRUE(runUntil([&] { return boardText().contains("ready"); }));
+}
+
+TEST(MixerBoard, OneThatIsNotThereDelaysNothingUntilItComes) {
+    VirtualBoard board;
+    board.stop();
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    const auto latency = [&] { return window.model().device().outputLatencySeconds(); };
+    const double before = latency();
+    DeviceChoice choice = window.model().device().choice();
+    choice.sinks = {{"BOARD", board.port()}};
+    window.model().device().onSinksWanted(choice);
+    ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.size() == 1; }));
+    runFor(0.5);
+    EXPECT_DOUBLE_EQ(latency(), before);
+    board.start();
+    ASSERT_TRUE(runUntil([&] { return latency() > before; })) << "it needs its events early";
+    EXPECT_NEAR(latency(), before + 0.05, 0.006);
+    ASSERT_TRUE(runUntil([&] { return beside(window.model()).sent > 3; })) << "and plays";
 }
 
 TEST(MixerBoard, IsChosenAtTheFirstStartAndTestedWhenItAnswers) {

@@ -68,8 +68,6 @@ TEST(CutTexts, AreOnNoPageAtAnySize) {
         CutTexts texts{width - 240, height, actuators};
         for (int k = 0; k < std::ssize(texts.model.world().scene().materials); ++k)
             texts.model.world().edit("Grain", TextureAction{k, 0.006, 1.6, {}, 0.2});
-        dynamic_cast<juce::ComboBox*>(find(texts.view, "Game controller"))
-            ->setText("the first there", juce::dontSendNotification);
         texts.model.setSilent(true);
         for (auto* panel : {&texts.view.tabs(), &texts.view.scope()})
             for (const auto& name : panel->names()) {
@@ -82,6 +80,21 @@ TEST(CutTexts, AreOnNoPageAtAnySize) {
         texts.view.world().drawing().use(DrawTool::choose);
         texts.view.world().drawing().choose({texts.model.world().drawing().drawn().bodies.back().name});
         texts.expectWhole("a chosen body", 8);
+        texts.view.setMode(Mode::engineer);
+        texts.view.setPanels({true, true});
+        texts.view.world().drawing().chooseAll();
+        texts.model.messages().show(
+            {"This study is felt on 16 actuators, and headphones are two. " +
+                 juce::String::repeatedString("What is said of it is long, and stays whole. ", 3),
+             true,
+             {"Choose Direction discrimination instead", [] {}},
+             "long"});
+        texts.expectWhole("an offer", 8);
+        texts.view.world().drawing().use(DrawTool::wall);
+        texts.model.messages().withdraw("long");
+        texts.expectWhole("materials", 8);
+        texts.view.setPanels({false, true});
+        texts.view.setMode(Mode::play);
         texts.view.world().drawing().use(DrawTool::hand);
         texts.view.setFirstStart(std::make_unique<FirstStart>(
             texts.model, std::vector<FeltChoice>{{"Four-channel board: /dev/ttyACM0  ST-Link", noDevice, 4},

@@ -287,6 +287,62 @@ TEST(Drawing, WhatDoesNotVibrateIsNoHapticSourceAndIsToldInWords) {
     EXPECT_FALSE(source.getToggleState());
 }
 
+TEST(Drawing, AMixedMarkIsGivenToAllThatCanHaveItAndThenTakenFromAll) {
+    Board board;
+    const auto& materials = board.drawn().materials;
+    const int dull =
+        static_cast<int>(std::ranges::find(materials, 0.0, &Material::frequencyHz) - materials.begin());
+    board.model.change("Mixed", [&](Mix& mix) {
+        Scene scene = board.drawn();
+        for (auto& fixture : scene.bodies.front().fixtures) fixture.material = dull;
+        setSource(scene, scene.bodies.front(), false);
+        mix.scene = std::make_shared<const Scene>(scene);
+    });
+    board.settle();
+    board.key('l');
+    board.drag(board.share(0.2, 0.3), board.share(0.4, 0.3));
+    for (const double x : {0.3, 0.6}) board.pane.addAt(DrawTool::ball, board.share(x, 0.6));
+    board.pane.use(DrawTool::choose);
+    board.pane.choose({"ball 1"});
+    board.pane.changeChosen("Dull", [](const Scene& s, BodyDescription& b) { setSource(s, b, false); });
+    board.pane.chooseAll();
+    for (const char* title : {"Haptic source", "Moves"}) {
+        auto& mark = dynamic_cast<juce::Button&>(*find(board.view, title));
+        const auto differs = [&] { return mark.getButtonText().containsChar(0x2260); };
+        EXPECT_TRUE(differs() && !mark.getToggleState()) << title;
+        for (const bool isOn : {true, false, true}) {
+            mark.triggerClick();
+            EXPECT_TRUE(runUntil([&] { return mark.getToggleState() == isOn && !differs(); }, 1.0))
+                << title << isOn << mark.getButtonText();
+        }
+    }
+    EXPECT_TRUE(isSource(*board.model.world().drawing().find("ball 1")));
+    EXPECT_FALSE(isSource(board.drawn().bodies.front())) << "it does not vibrate";
+}
+
+TEST(Drawing, NoPanelStaysOverAWorldWhoseBodiesAreGone) {
+    Board board;
+    board.model.change("Scene",
+                       [](Mix& m) { m.scene = std::make_shared<const Scene>(*findBuiltInScene("drawing")); });
+    board.model.setSlowness(1);
+    board.settle();
+    const auto isPanelThere = [&] {
+        board.model.dispatchPendingMessages(), board.view.refresh();
+        return find(board.view, "Chosen bodies")->isVisible();
+    };
+    for (const bool areAll : {false, true}) {
+        board.pane.use(DrawTool::choose);
+        board.pane.choose({"pen"});
+        EXPECT_TRUE(isPanelThere());
+        if (areAll) board.pane.chooseAll();
+        board.pane.eraseAll(board.pane.chosen());
+        EXPECT_TRUE(runUntil([&] { return !isPanelThere(); }, 1.0)) << areAll;
+        EXPECT_EQ(board.model.world().drawing().find("pen"), nullptr) << board.model.trouble();
+        board.model.undoManager().undo();
+        board.settle();
+    }
+}
+
 TEST(Drawing, TheWorldSaysWhyNothingIsFelt) {
     Board board;
     const auto says = [&](const char* why) {
@@ -301,6 +357,17 @@ TEST(Drawing, TheWorldSaysWhyNothingIsFelt) {
                        [](Mix& m) { m.scene = std::make_shared<const Scene>(*findBuiltInScene("marbles")); });
     board.model.dispatchPendingMessages();
     EXPECT_FALSE(says("draw a ball: B")) << "its script does";
+    board.pane.chooseAll();
+    board.pane.changeChosen("Dull", [](const Scene& s, BodyDescription& b) { setSource(s, b, false); });
+    board.model.change("Scene", [&](Mix& m) {
+        Scene dull = board.drawn();
+        std::erase_if(dull.script, [](const ScriptInput& input) {
+            const auto* brought = bodyPutBy(input.action);
+            return brought != nullptr && isSource(*brought);
+        });
+        m.scene = std::make_shared<const Scene>(dull);
+    });
+    EXPECT_TRUE(runUntil([&] { return says("no body is a haptic source"); }));
     board.model.setSilent(true);
     EXPECT_TRUE(says("silent"));
 }

@@ -17,11 +17,7 @@ TEST(MixerPad, IsChosenInTheOutputTabPlaysAndIsFollowedWhenItGoes) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     const double before = window.model().device().outputLatencySeconds();
     window.view().tabs().choose("Output");
-    auto* list = dynamic_cast<juce::ComboBox*>(find(window.view(), "Game controller"));
-    ASSERT_NE(list, nullptr);
-    ASSERT_EQ(list->getNumItems(), 3) << "none, the first there, and this one";
-    EXPECT_EQ(list->getItemText(2), "mixed");
-    list->setSelectedItemIndex(2);
+    EXPECT_EQ(chooseIn(window.view(), "Device", "Game controller"), "Game controller: mixed");
     ASSERT_TRUE(runUntil([&] {
         return window.model().device().choice().sinks == std::vector<SinkName>{{"PAD", "mixed"}};
     }));
@@ -47,22 +43,34 @@ TEST(MixerPad, OneThatIsNotPluggedInSaysSoAndDelaysNothingUntilItComes) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     const auto latency = [&] { return window.model().device().outputLatencySeconds(); };
-    const auto list = [&] { return dynamic_cast<juce::ComboBox*>(find(window.view(), "Game controller")); };
+    const auto list = [&] { return dynamic_cast<juce::ComboBox*>(find(window.view(), "Device")); };
+    const auto has = [&](const juce::String& words) {
+        for (int k = 0; k < list()->getNumItems(); ++k)
+            if (list()->getItemText(k) == words) return true;
+        return false;
+    };
     const double before = latency();
     window.view().tabs().choose("Output");
-    ASSERT_EQ(list()->getItemText(1), "none is plugged in");
-    list()->setSelectedItemIndex(1);
+    chooseIn(window.view(), "Device", "Game controller: none is plugged in");
+    auto& model = window.model();
+    EXPECT_TRUE(model.trouble().contains("Its two motors follow all hits")) << model.trouble();
+    ASSERT_EQ(model.messages().shown().act.name, "Use it once it is there");
+    EXPECT_TRUE(model.device().choice().sinks.empty());
+    model.messages().shown().act.run();
     ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.size() == 1; }));
     ASSERT_TRUE(runUntil([&] {
         return find(window.view(), "Board state")->getDescription().contains("No controller");
     })) << find(window.view(), "Board state")->getDescription();
-    EXPECT_EQ(list()->getText(), "none is plugged in");
+    EXPECT_EQ(list()->getText(), "No device + Game controller");
+    EXPECT_TRUE(has("Game controller: none there yet, in use"));
     EXPECT_DOUBLE_EQ(latency(), before);
     VirtualPad pad{"late"};
     ASSERT_TRUE(runUntil([&] { return latency() > before; })) << "it needs its events early";
     EXPECT_NEAR(latency(), before + 0.03, 0.006);
-    ASSERT_TRUE(runUntil([&] { return list()->getText() == "the first there"; })) << list()->getText();
+    ASSERT_TRUE(runUntil([&] { return has("Game controller: late, in use"); }));
     ASSERT_TRUE(runUntil([&] { return !pad.told().empty(); })) << "and plays";
+    chooseIn(window.view(), "Device", "Game controller: late, in use");
+    ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.empty(); })) << "and is left";
 }
 
 } // namespace

@@ -275,6 +275,28 @@ TEST(Headphones, ThoseOfAFourActuatorMixerAreToldAndTheLevelIsLow) {
     routed.expectAsShown("headphones");
 }
 
+TEST(Headphones, GiveTheOutputsOfBeforeBackAndTakeTheirMessageAlong) {
+    RoutedModel routed;
+    MixerModel& model = routed.model;
+    routed.give(0, 5);
+    routed.give(3, -1);
+    const auto before = routed.outputs();
+    DeviceChoice choice = model.device().choice();
+    ASSERT_EQ(useHeadphones(model, choice), "");
+    ASSERT_EQ(useHeadphones(model, model.device().choice()), "") << "again";
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1, -1}));
+    EXPECT_TRUE(model.trouble().contains("headphones have two"));
+    ASSERT_EQ(model.open(choice), "");
+    EXPECT_EQ(routed.outputs(), before);
+    EXPECT_EQ(model.trouble(), "") << "no headphones are there";
+    EXPECT_EQ(model.mix().levelDb, safeContactDb) << "nothing is louder by itself";
+    routed.expectAsShown("back");
+    ASSERT_EQ(useHeadphones(model, choice), "");
+    routed.give(2, 7); // a choice meanwhile stays
+    ASSERT_EQ(model.open(choice), "");
+    EXPECT_EQ(routed.outputs(), (std::vector{5, 1, 7, -1}));
+}
+
 TEST(MixerRouting, ANewActuatorLeavesTheMonitorAndTheMarkerWhatTheyUse) {
     FakeInterface hands;
     Mix mix = MixerModel::firstMix();
@@ -293,16 +315,6 @@ TEST(MixerRouting, ANewActuatorLeavesTheMonitorAndTheMarkerWhatTheyUse) {
     for (int k = 0; k < 8; ++k)
         EXPECT_EQ(list->isItemEnabled(k + 2), k != 0 && k != 1 && k != 4) << list->getItemText(k + 1);
     EXPECT_EQ(list->getItemText(1), "out 1 (monitor)");
-}
-
-/// Chooses the entry that begins with `words`, as a hand does.
-void chooseIn(juce::Component& view, const juce::String& title, const juce::String& words) {
-    auto* list = dynamic_cast<juce::ComboBox*>(find(view, title));
-    ASSERT_NE(list, nullptr) << title;
-    for (int k = 0; k < list->getNumItems(); ++k)
-        if (list->getItemText(k).startsWith(words))
-            return list->setSelectedItemIndex(k, juce::sendNotificationSync);
-    FAIL() << title << " has no " << words;
 }
 
 TEST(MixerRouting, WhatIsChosenInAListIsWhatPlays) {
@@ -365,6 +377,8 @@ TEST(MixerRouting, WithoutADeviceNoOutputIsMissedAndNoneIsSaidToBeThere) {
     view.refresh();
     const auto facts = find(view, "What follows from it")->getDescription();
     EXPECT_TRUE(facts.contains("Actuators: without a device none has an output")) << facts;
+    EXPECT_TRUE(facts.contains("Felt: by nobody")) << facts;
+    EXPECT_FALSE(find(view, "Device state")->getDescription().contains(" ms")) << "nothing is felt";
     EXPECT_EQ(dynamic_cast<juce::ComboBox&>(*find(view, "Device")).getText(), "No device: seen, not felt");
 }
 
@@ -375,10 +389,7 @@ TEST(Headphones, AreInTheListAgainAfterNoDevice) {
     view.tabs().choose("Output");
     auto& list = dynamic_cast<juce::ComboBox&>(*find(view, "Device"));
     const auto choose = [&](const juce::String& words) {
-        for (int k = 0; k < list.getNumItems(); ++k)
-            if (list.getItemText(k).startsWith(words))
-                return list.setSelectedItemIndex(k, juce::sendNotificationSync), list.getText();
-        return juce::String{"not in the list: "} + words;
+        return chooseIn(view, "Device", words), list.getText();
     };
     for (int k = 0; k < 2; ++k) {
         EXPECT_EQ(choose("Headphones"), "Headphones: Fake:hands (L and R)");
@@ -387,8 +398,12 @@ TEST(Headphones, AreInTheListAgainAfterNoDevice) {
         EXPECT_EQ(choose("No device"), "No device: seen, not felt");
         EXPECT_FALSE(model.device().choice().isHeadphones);
     }
-    EXPECT_TRUE(model.undoManager().undo());
-    EXPECT_EQ(model.mix().strips[2].output, 2) << "the second time has changed nothing";
+    EXPECT_EQ(model.mix().strips[2].output, 2) << "as before";
+    for (int k = 0; k < 4; ++k) { // there and back, twice
+        const int shown = model.mix().strips[2].output;
+        EXPECT_TRUE(model.undoManager().undo());
+        EXPECT_NE(model.mix().strips[2].output, shown) << "no step shows nothing";
+    }
     EXPECT_FALSE(model.undoManager().canUndo());
 }
 

@@ -33,6 +33,19 @@ inline juce::Component* find(juce::Component& root, const juce::String& title) {
     return nullptr;
 }
 
+/// Chooses the entry that begins with `words`, as a hand does. Its whole text.
+inline juce::String chooseIn(juce::Component& view, const juce::String& title, const juce::String& words) {
+    auto* const list = dynamic_cast<juce::ComboBox*>(find(view, title));
+    juce::String all;
+    for (int k = 0; list != nullptr && k < list->getNumItems(); ++k) {
+        const auto entry = list->getItemText(k);
+        if (entry.startsWith(words)) return list->setSelectedItemIndex(k, juce::sendNotificationSync), entry;
+        all << entry << "\n";
+    }
+    ADD_FAILURE() << title << " has no " << words << " but\n" << all;
+    return {};
+}
+
 /// A button, the left one unless told, at a place of `c`.
 inline juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at,
                                 juce::ModifierKeys button = juce::ModifierKeys::leftButtonModifier) {

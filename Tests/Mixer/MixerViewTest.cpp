@@ -343,6 +343,21 @@ TEST(MixerView, AMessageIsFoundByItsLabel) {
     EXPECT_EQ(model.device().trouble(), "") << "whatever is shown";
 }
 
+TEST(MixerView, AnOfferStaysUntilItIsAnsweredDismissedOrWithdrawn) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    auto& messages = model.messages();
+    messages.show({"an offer", true, {"Take it", [] {}}, "offer"});
+    messages.show({"written", true, {"Show", [] {}}, savedLabel});
+    messages.show({"a fault"});
+    EXPECT_EQ(model.trouble(), "a fault");
+    model.report({});
+    EXPECT_EQ(model.trouble(), "an offer") << "what was written does not last";
+    messages.show({"a later fault"});
+    messages.withdraw("offer");
+    model.report({});
+    EXPECT_EQ(model.trouble(), "");
+}
+
 TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
     MixerModel model{onlyNoDevice(), noDevice};
     MixerView view{model};

@@ -285,6 +285,7 @@ TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
     auto* inspector = find(f.panel, "Chosen bodies");
     ASSERT_TRUE(inspector->isVisible());
     const auto place = inspector->getBounds();
+    EXPECT_LE(place.getWidth() * place.getHeight(), 210 * 160) << "small beside a small field";
     for (int j = 0; j < f.model.mix().count(); ++j)
         EXPECT_TRUE(
             place.getIntersection(f.world.badgeAt(j).toNearestInt() + f.world.getPosition()).isEmpty())

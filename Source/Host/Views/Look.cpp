@@ -198,8 +198,15 @@ void Look::drawLabel(juce::Graphics& g, juce::Label& label) {
     const auto area = getLabelBorderSize(label).subtractedFrom(label.getLocalBounds());
     const int lines =
         std::max(1, static_cast<int>(static_cast<float>(area.getHeight()) / getLabelFont(label).getHeight()));
-    g.drawFittedText(label.getText(), area, label.getJustificationType(), lines,
-                     label.getMinimumHorizontalScale());
+    const int high = text::high(getLabelFont(label), label.getText(), area.getWidth());
+    if (lines > 1 && high <= area.getHeight()) { // JUCE's fitting takes too few lines now and then
+        juce::AttributedString words;
+        words.append(label.getText(), getLabelFont(label), label.findColour(juce::Label::textColourId));
+        words.setJustification(label.getJustificationType());
+        words.draw(g, area.toFloat());
+    } else
+        g.drawFittedText(label.getText(), area, label.getJustificationType(), lines,
+                         label.getMinimumHorizontalScale());
     g.setColour(label.findColour(juce::Label::outlineColourId));
     g.drawRect(label.getLocalBounds());
 }

@@ -76,6 +76,15 @@ inline float width(const juce::Font& font, const juce::String& words) {
 inline int pixels(const juce::Font& font, const juce::String& words) {
     return static_cast<int>(std::ceil(width(font, words)));
 }
+
+/// How high `words` are in lines of that width, in pixels. M.
+inline int high(const juce::Font& font, const juce::String& words, int width) {
+    juce::AttributedString said{words};
+    said.setFont(font);
+    juce::TextLayout lines;
+    lines.createLayout(said, static_cast<float>(width));
+    return static_cast<int>(std::ceil(lines.getHeight()));
+}
 } // namespace text
 
 /// That colour in the theme of `component`. M.

@@ -38,10 +38,10 @@ void Fader::resized() {
     setMouseDragSensitivity(std::max(1, length - margins)); // the handle follows the pointer
 }
 
-void drawScale(juce::Graphics& g, const Fader& fader) {
+void drawScale(juce::Graphics& g, const Fader& fader, int right) {
     constexpr int figure = 20, least = 10; // pixels
     const int x = fader.getBounds().getCentreX() + 4;
-    const bool hasFigures = x + 12 + figure <= fader.getParentWidth();
+    const bool hasFigures = x + 12 + figure <= right;
     g.setFont(text::font(11.0f));
     for (int last = -least; const int db : {6, 0, -6, -12, -24, -40}) {
         if (db > fader.getMaximum()) continue;
@@ -189,15 +189,20 @@ void StripParts::askDelay() {
     menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(delay_).withDeletionCheck(*this));
 }
 
-void StripParts::place(juce::Rectangle<int> area, int left) {
+void StripParts::place(juce::Rectangle<int> area, int left, bool areBeside) {
     auto row = area.removeFromBottom(18);
     level_.setBounds(row.removeFromLeft(row.getWidth() * 42 / 100));
     most_.setBounds(row);
-    row = area.removeFromBottom(24);
-    const int each = row.getWidth() / 4;
-    for (auto* button : {&mute_, &solo_, &polarity_, &delay_})
-        button->setBounds(row.removeFromLeft(each).reduced(1, 0));
+    row = area.removeFromBottom(areBeside ? 0 : 24);
     area.removeFromBottom(8);
+    constexpr int column = 24, figuresEnd = 103;
+    if (areBeside)
+        row =
+            area.withX(std::min(left + figuresEnd, getWidth() - column - 1)).withWidth(column).expanded(0, 8);
+    const int each = (areBeside ? row.getHeight() : row.getWidth()) / 4;
+    for (auto* button : {&mute_, &solo_, &polarity_, &delay_})
+        button->setBounds(areBeside ? row.removeFromTop(each).reduced(0, 1)
+                                    : row.removeFromLeft(each).reduced(1, 0));
     meter_.setBounds(area.withWidth(12).withX(left + 10));
     ceiling_.placeOver(meter_.getBounds());
     fader_.setBounds(area.withX(left + 47).withWidth(32).expanded(0, 8));
@@ -222,7 +227,7 @@ void StripParts::paint(juce::Graphics& g, int enchanter, const juce::String& nam
     g.setColour(shade(*this, isQuiet ? Shade::muted : Shade::text));
     g.setFont(bold);
     g.drawText(name, row, juce::Justification::centred, true);
-    drawScale(g, fader_);
+    drawScale(g, fader_, mute_.getY() < fader_.getBottom() ? mute_.getX() : getWidth());
     g.setColour(shade(*this, Shade::muted));
     g.setFont(text::font(11.0f));
     const auto bar = meter_.getBounds().toFloat();

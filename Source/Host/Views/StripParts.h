@@ -52,8 +52,8 @@ public:
     void resized() override;
 };
 
-/// The fader's own marks right of its groove, in its parent, with figures where that has the room. M.
-void drawScale(juce::Graphics& g, const Fader& fader);
+/// The fader's own marks right of its groove, in its parent, with figures if there is room up to `right`. M.
+void drawScale(juce::Graphics& g, const Fader& fader, int right);
 
 /// Slider for the ceiling of a strip, the highest level of its actuator, in dB of full scale. It only reacts
 /// to dragging: a click, a double click or the wheel could raise the limit by accident while the actuator
@@ -78,8 +78,9 @@ protected:
     explicit StripParts(const juce::String& label);
     virtual void change(const juce::String& name, const std::function<void(Strip&)>& how) = 0;
     void show(const Strip& strip, double mostG);
-    /// Buttons, figures and, above them, meter and fader, from `left` on.
-    void place(juce::Rectangle<int> area, int left);
+    /// Figures and, above them, meter and fader, from `left` on; buttons between, or in a column beside them,
+    /// which leaves the fader a longer way.
+    void place(juce::Rectangle<int> area, int left, bool areBeside = false);
     /// The fader's gain stands beside the name, unless it is 0 dB or the name needs the room; the meter's
     /// scale is right of the meter.
     void paint(juce::Graphics& g, int enchanter, const juce::String& name, bool isQuiet);

@@ -652,6 +652,12 @@ void WorldView::mouseDrag(const juce::MouseEvent& e) {
     if (grip_.body >= 0) repaint();
 }
 
+void WorldView::cancelDrag() {
+    const Grip grip = std::exchange(grip_, {});
+    if (!grip.held.empty()) onLetGo(grip.held);
+    repaint();
+}
+
 void WorldView::mouseUp(const juce::MouseEvent& e) {
     const Grip grip = std::exchange(grip_, {});
     repaint();

@@ -111,6 +111,8 @@ public:
     juce::Point<float> placeOfEnchanter(int enchanter) const;
     juce::Point<float> placeOfBody(const std::string& name) const; ///< outside the view if the body is absent
     bool isHolding() const noexcept { return !grip_.held.empty(); }
+    bool isDragging() const noexcept { return grip_.body >= 0 || grip_.enchanter >= 0; }
+    void cancelDrag(); ///< what is dragged is let go where it is, and not thrown
 
     /// For components that draw over this view. Places in metres of the field; they may lie outside it. M.
     juce::Point<float> placeOfMetres(Vector at) const { return map().at(at.x, at.y); }

@@ -48,15 +48,15 @@ std::vector<SinkPlace> hidPads() {
 }
 
 template <const HidFeedKind& kind, const CoilFormat& (*format)()>
-std::unique_ptr<Sink> coils(const std::string& where, const PhantomPanner& panner, bool) {
+std::unique_ptr<Sink> coils(const std::string& where, const PhantomPanner& panner) {
     return std::make_unique<HidOutput>(where, std::make_unique<CoilFeed>(kind, format(), panner));
 }
 
-std::unique_ptr<Sink> tones(const std::string& where, const PhantomPanner& panner, bool) {
+std::unique_ptr<Sink> tones(const std::string& where, const PhantomPanner& panner) {
     return std::make_unique<HidOutput>(where, std::make_unique<ToneFeed>(nintendo, panner));
 }
 
-std::unique_ptr<Sink> motors(const std::string& where, const PhantomPanner& panner, bool) {
+std::unique_ptr<Sink> motors(const std::string& where, const PhantomPanner& panner) {
     return std::make_unique<PadOutput>(where, panner);
 }
 
@@ -68,14 +68,12 @@ constexpr SinkKind pad(std::string_view name, std::string_view title, std::strin
 }
 
 constinit const std::array allKinds{
-    SinkKind{
-        "BOARD", "Four-channel board", "It plays the first four actuators beside the device", "board",
-        anyBoard, "Serial port", limits::board::channels, "board: expected at most four actuators", true,
-        serialPorts,
-        [](const std::string& where, const PhantomPanner& panner, bool isAwaited) -> std::unique_ptr<Sink> {
-            return std::make_unique<BoardOutput>(where, panner,
-                                                 isAwaited ? 0.0 : BoardOutput::usualLatencySeconds);
-        }},
+    SinkKind{"BOARD", "Four-channel board", "It plays the first four actuators beside the device", "board",
+             anyBoard, "Serial port", limits::board::channels, "board: expected at most four actuators", true,
+             serialPorts,
+             [](const std::string& where, const PhantomPanner& panner) -> std::unique_ptr<Sink> {
+                 return std::make_unique<BoardOutput>(where, panner);
+             }},
     pad("PAD", "Game controller", "Its two motors follow all hits, felt together with the device",
         "controller", gamePads, motors, false),
     pad("DUALSENSE", "DualSense by Bluetooth",
@@ -134,7 +132,7 @@ std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& 
         return "expected at most " + std::to_string(mostNamedSinks) + " outputs beside the device, found " +
                std::to_string(wanted.size());
     for (const SinkName& sink : wanted) {
-        opened.push_back(kindOf(sink).make(sink.where, panner, keepGoing != nullptr));
+        opened.push_back(kindOf(sink).make(sink.where, panner));
         if (!keepGoing) continue;
         if (auto fault = opened.back()->awaitReady(keepGoing); !fault.empty()) return fault;
     }

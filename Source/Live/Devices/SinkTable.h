@@ -31,9 +31,7 @@ struct SinkKind {
                               ///< those of the unit
     bool isMeant; ///< a connected unit is meant for this use, so the first-start dialog offers it first
     std::vector<SinkPlace> (*places)(); ///< M; queries the system, which takes a while
-    /// `isAwaited`: Sink::awaitReady is called before the session is prepared. Otherwise the sink assumes how
-    /// early it needs the events.
-    std::unique_ptr<Sink> (*make)(const std::string& where, const PhantomPanner& panner, bool isAwaited);
+    std::unique_ptr<Sink> (*make)(const std::string& where, const PhantomPanner& panner);
     bool takesReports = false; ///< a controller that is sent raw reports, beside its ordinary motors
 };
 

@@ -9,8 +9,10 @@
 #include "Live/Recordings/LoadRecordings.h"
 #include "Live/Session/SessionRender.h"
 #include "Scene/EventsCsv.h"
+#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
@@ -82,6 +84,7 @@ public:
     }
     std::int64_t frames() const noexcept { return written_; } ///< written to the file. M
     std::uint64_t framesLost() const noexcept { return tap_.framesLost(); }
+    float peak() const noexcept { return peak_; } ///< of what was written. M, after finish()
 
 private:
     // With the disk's own delay, shorter than the audio that may be lost when the process is killed.
@@ -102,6 +105,8 @@ private:
             if (const auto begins = beginsSeconds(); begins && written_ == 0)
                 wav_.setComment("begins at session time " + fixedNumber(*begins, 6) + " s");
             if (wav_.write(channels, frames)) written_ += frames;
+            for (int j = 0; j < tap_.channels(); ++j)
+                for (int n = 0; n < frames; ++n) peak_ = std::max(peak_, std::abs(channels[j][n]));
         });
         if (written_ > before) wav_.show();
     }
@@ -120,7 +125,8 @@ private:
     std::atomic<std::int64_t> firstFrame_{-1}, outputLatencyFrames_{-1}, written_{0};
     std::atomic<bool> isWhole_{true};
 
-    WavSink wav_; // used by the thread; by M once the thread has ended
+    WavSink wav_; // used by the thread; by M once the thread has ended, as the next
+    float peak_ = 0.0f;
 
     mutable std::mutex mutex_; // guards the members below
     std::condition_variable ends_;

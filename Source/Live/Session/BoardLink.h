@@ -98,6 +98,10 @@ public:
     void setGains(const std::array<double, limits::board::channels>& gains);
 
     BoardLinkStatus status() const;
+    bool hasMet() const { ///< a board, whether it is there now or not
+        const std::scoped_lock lock{mutex_};
+        return published_.connections > 0;
+    }
 
 private:
     using State = BoardLinkStatus::State;

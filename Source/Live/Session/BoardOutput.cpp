@@ -47,7 +47,7 @@ void BoardOutput::made(const CollisionEvent& event) noexcept {
 }
 
 SinkState BoardOutput::state() const {
-    SinkState state = sinkStateOf(link_.status(), port_, isAwaited_ ? HUGE_VAL : latencySeconds_);
+    SinkState state = sinkStateOf(link_.status(), port_, isAwaited_ ? HUGE_VAL : latencySeconds());
     state.lost += untold();
     return state;
 }

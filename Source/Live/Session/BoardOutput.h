@@ -14,6 +14,7 @@
 #include "Live/Session/OutputClock.h"
 #include "Live/Session/Sink.h"
 #include "Wire/BoardPath.h"
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <optional>
@@ -28,12 +29,16 @@ public:
     static constexpr double usualLatencySeconds = 0.05;
 
     /// The board at `port`, or anyBoard; `panner`: the session's, of at most four actuators. Events must be
-    /// known `latencySeconds` ahead, or longer if the link requires it once it is ready. Message thread (M).
+    /// known `latencySeconds` ahead, or longer: as the link requires it if it is awaited, else the usual time
+    /// from when a board has answered, so that one that is not there delays nothing. Message thread (M).
     BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds = 0.0);
     ~BoardOutput() override { follow(nullptr); }
 
     std::string awaitReady(const std::function<bool()>& keepGoing) override;
-    double latencySeconds() const noexcept override { return latencySeconds_; }
+    double latencySeconds() const noexcept override {
+        return isAwaited_ || !link_.hasMet() ? latencySeconds_
+                                             : std::max(latencySeconds_, usualLatencySeconds);
+    }
     void follow(OutputClock* device) override;
     void made(const CollisionEvent& event) noexcept override;
     void posted(const RenderControl& control) noexcept override { controls_.push(control); }

@@ -73,6 +73,30 @@ std::vector<Action> erased(const SceneDrawing& drawing, const std::vector<std::s
     return actions;
 }
 
+Scene without(Scene scene, const std::vector<std::string>& names) {
+    auto gone = names;
+    const auto isGone = [&](const std::string& name) { return std::ranges::find(gone, name) != gone.end(); };
+    std::erase_if(scene.joints, [&](const JointDescription& joint) {
+        const bool goes = isGone(joint.name) || isGone(joint.bodyA) || isGone(joint.bodyB);
+        if (goes) gone.push_back(joint.name);
+        return goes;
+    });
+    std::erase_if(scene.bodies, [&](const BodyDescription& body) { return isGone(body.name); });
+    std::erase_if(scene.script, [&](const ScriptInput& input) {
+        return std::visit(
+            [&](const auto& action) {
+                if constexpr (requires { isGone(action.body); })
+                    return isGone(action.body);
+                else if constexpr (requires { isGone(action.joint); })
+                    return isGone(action.joint);
+                else
+                    return false;
+            },
+            input.action);
+    });
+    return scene;
+}
+
 Copied copied(const SceneDrawing& drawing, const std::vector<std::string>& names) {
     Copied copy;
     const auto isMeant = [&](const std::string& name) {
@@ -245,6 +269,10 @@ void setDensity(BodyDescription& body, double kgPerSquareMetre) {
 void setSource(const Scene& scene, BodyDescription& body, bool isSource) {
     for (FixtureDescription& fixture : body.fixtures) fixture.isCamera = isSource;
     if (isSource && massKg(body, scene) <= 0.0) body.massKg = 1.0; // a line has no mass of its own
+}
+
+bool isSource(const BodyDescription& body) {
+    return std::ranges::any_of(body.fixtures, &FixtureDescription::isCamera);
 }
 
 void setMoving(BodyDescription& body, bool moves) {

@@ -32,6 +32,9 @@ void setDensity(BodyDescription& body, double kgPerSquareMetre);
 /// Makes a body a haptic source, or not. A line gets the mass that Eq. 5.4 needs, if it has none. Any thread.
 void setSource(const Scene& scene, BodyDescription& body, bool isSource);
 
+/// Any part of it is one. Any thread.
+bool isSource(const BodyDescription& body);
+
 /// Makes a body static or dynamic. A line stays static. Any thread.
 void setMoving(BodyDescription& body, bool moves);
 
@@ -43,6 +46,9 @@ Action changed(BodyDescription body);
 
 /// Removes bodies and their joints. Any thread.
 std::vector<Action> erased(const SceneDrawing& drawing, const std::vector<std::string>& names);
+
+/// The scene without these bodies, their joints, and what its script does to either. Any thread.
+Scene without(Scene scene, const std::vector<std::string>& names);
 
 /// Copied bodies and the joints between them. Any thread.
 struct Copied {

@@ -130,7 +130,7 @@ std::vector<Action> feltChanges(const Scene& scene, const BodyDescription& body)
     for (FixtureDescription& fixture : felt.fixtures)
         if (!vibrates(scene.materials[static_cast<std::size_t>(fixture.material)]))
             fixture.material = static_cast<int>(first - scene.materials.begin());
-    if (!std::ranges::any_of(felt.fixtures, &FixtureDescription::isCamera)) setSource(scene, felt, true);
+    if (!isSource(felt)) setSource(scene, felt, true);
     if (felt == body) return {};
     return {changed(std::move(felt))};
 }

@@ -181,19 +181,23 @@ void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips) {
                               "headphones have two, L and R",
                           false,
                           {},
-                          "ears"});
+                          noEarLabel});
 }
 
+namespace {
+int earOf(std::size_t strip) { return strip < DeviceChoice::ears ? static_cast<int>(strip) : -1; }
+} // namespace
+
 std::string useHeadphones(MixerModel& model, DeviceChoice choice) {
+    if (!model.device().choice().isHeadphones) choice.beforeEars = model.device().outputMap();
     choice.isHeadphones = true;
     choice.monitor.clear();
     if (choice.marker < DeviceChoice::ears) choice.marker = -1;
     std::vector<std::size_t> others;
     Mix mix = model.mix();
     for (std::size_t j = 0; j < mix.strips.size(); ++j) {
-        const bool hasEar = j < DeviceChoice::ears;
-        mix.strips[j].output = hasEar ? static_cast<int>(j) : -1;
-        if (!hasEar) others.push_back(j);
+        mix.strips[j].output = earOf(j);
+        if (earOf(j) < 0) others.push_back(j);
     }
     mix.levelDb = std::min(mix.levelDb, safeContactDb);
     if (mix.levelDb != model.mix().levelDb || // else a step of undo would show nothing
@@ -202,6 +206,20 @@ std::string useHeadphones(MixerModel& model, DeviceChoice choice) {
     auto error = model.open(choice);
     reportNoEar(model, others);
     return error;
+}
+
+void leaveHeadphones(MixerModel& model, const std::vector<int>& outputs) {
+    const int there = model.device().outputs() > 0 ? model.device().outputs() : mostStripOutputs;
+    Mix mix = model.mix();
+    std::vector<std::size_t> as;
+    for (std::size_t j = 0; j < std::min(mix.strips.size(), outputs.size()); ++j)
+        if (mix.strips[j].output == earOf(j)) as.push_back(j), mix.strips[j].output = -1;
+    for (const std::size_t j : as)
+        if (outputs[j] < there &&
+            std::ranges::find(mix.strips, outputs[j], &Strip::output) == mix.strips.end())
+            mix.strips[j].output = std::max(-1, outputs[j]);
+    if (!std::ranges::equal(mix.strips, model.mix().strips, {}, &Strip::output, &Strip::output))
+        model.edit("Outputs as before headphones", mix);
 }
 
 void reportWithout(MixerModel& model, const std::vector<std::size_t>& strips) {

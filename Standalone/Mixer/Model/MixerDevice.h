@@ -109,9 +109,9 @@ public:
     /// Why the device, or else a sink, does not play, whatever message is shown; empty: it plays.
     juce::String trouble() const;
 
-private:
-    std::vector<int> outputMap() const;
+    std::vector<int> outputMap() const; ///< of the strips
 
+private:
     Rig& rig_;
     AudioDrivers drivers_;
     const Mix& mix_;
@@ -131,8 +131,13 @@ std::vector<std::size_t> placeNew(const DeviceChoice& choice, std::span<Strip> s
 /// a monitor begins, or lower. Result as MixerModel::open(). Message thread.
 std::string useHeadphones(MixerModel& model, DeviceChoice choice);
 
+/// After headphones: strips that are as useHeadphones() left them get the outputs of before, if the device
+/// has them; the level stays low. Message thread.
+void leaveHeadphones(MixerModel& model, const std::vector<int>& outputs);
+
 /// Reports strips for which headphones have no output. Message thread.
 void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips);
+constexpr const char* noEarLabel = "ears"; ///< of that message
 
 /// Reports strips that lost their output to another one, with a button that gives them free outputs. Message
 /// thread only.

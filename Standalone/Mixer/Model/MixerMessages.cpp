@@ -31,8 +31,7 @@ void MixerMessages::show(MixerMessage message) {
     if (isDone && !waiting_.empty()) {
         message = std::move(waiting_.front());
         waiting_.pop_front();
-    } else if (!isDone && !shown_.isNews && (shown_.act.run || shown_.label.isNotEmpty()) &&
-               shown_.words != message.words && !isOf(shown_, message.label))
+    } else if (!isDone && shown_.lasts() && shown_.words != message.words && !isOf(shown_, message.label))
         waiting_.push_front(shown_); // there is still something to be done about it
     put(std::move(message));
 }

@@ -36,11 +36,16 @@ struct MixerAct {
     std::function<void()> run;
 };
 
+constexpr const char* savedLabel = "saved"; ///< of the news that a file was written, which do not last
+
 struct MixerMessage {
     juce::String words;  ///< one line; empty: none
     bool isNews = false; ///< a success; else an error
     MixerAct act{};
     juce::String label{}; ///< what it is about: there is one message of a label; empty: nothing that lasts
+
+    /// It stays until it is answered, dismissed or withdrawn: an error that still stands, an offer.
+    bool lasts() const { return act.run ? label != savedLabel : !isNews && label.isNotEmpty(); }
 };
 
 /// The line above the world: one message at a time, each with a button for what can be done about it. They
@@ -53,8 +58,7 @@ public:
 
     const MixerMessage& shown() const noexcept { return shown_; }
 
-    /// Replaces the message. Without words the next one that waits is shown. An error waits if it has a label
-    /// or a button, since it still stands.
+    /// Replaces the message, which waits if it lasts. Without words the next one that waits is shown.
     void show(MixerMessage message);
 
     /// Shows the message after those that are there, or in the place of the one of its label.

@@ -275,7 +275,12 @@ const SavedSession& MixerModel::saved() {
 
 std::string MixerModel::open(const DeviceChoice& choice) {
     const int slowness = session().world().slowness();
+    const DeviceChoice before = device_.choice();
     auto error = device_.open(choice);
+    if (!choice.isHeadphones) {
+        messages_.withdraw(noEarLabel);
+        if (before.isHeadphones) leaveHeadphones(*this, before.beforeEars);
+    }
     session().world().setSlowness(slowness); // the first device resets it
     if (!error.empty())
         messages_.show({utf8(error), false, {}, deviceLabel});

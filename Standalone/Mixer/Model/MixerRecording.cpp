@@ -84,6 +84,7 @@ juce::String MixerRecording::close() {
     names.addScene(*mix_.scene);
     const auto error =
         utf8(recording_->finish(session_.timeline().outputLatencyFrames(), field, provenance, names));
+    wasSilent_ = recording_->recorder().peak() == 0.0f;
     recording_.reset();
     return error;
 }

@@ -41,7 +41,8 @@ public:
     void stop(); ///< the files are complete a moment later, when onEnd is called
     bool isRunning() const noexcept { return recording_ != nullptr && !isEnding_; }
     double seconds() const noexcept;
-    std::int64_t from() const noexcept { return from_; } ///< session frame of the last recording's start
+    bool wasSilent() const noexcept { return wasSilent_; } ///< the last one, throughout
+    std::int64_t from() const noexcept { return from_; }   ///< session frame of the last recording's start
     std::function<void(const juce::File&, const juce::String& error)> onEnd;
 
     /// Records an event that was played.
@@ -60,7 +61,7 @@ private:
     std::function<void()> onChange_;
     std::unique_ptr<Recording> recording_;
     juce::File file_;
-    bool isEnding_ = false;
+    bool isEnding_ = false, wasSilent_ = false;
     std::int64_t from_ = 0;
     std::uint64_t endsAfterBlock_ = 0;
 };

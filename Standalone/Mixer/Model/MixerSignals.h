@@ -51,6 +51,7 @@ struct DeviceChoice {
     double monitorDb = safeContactDb; ///< as ListeningSettings::contactDb
     int marker = -1;                  ///< its marker output, from 0; -1: none
     bool isHeadphones = false;        ///< its first two outputs, L and R, are the ears, in place of actuators
+    std::vector<int> beforeEars{};    ///< then: the outputs of the strips before; -1: none
 
     static constexpr int ears = 2;
     /// Outputs of listeners and measuring devices, which are not given to actuators.

@@ -13,8 +13,7 @@ constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
 constexpr std::array<int, 9> monitorLevels{0, -5, -10, -15, -20, -25, -30, -40, -50};
 constexpr int noneId = 1, levelId = 100; // item ids of the lists of outputs and levels: 1 + output or pair;
                                          // 100 - level in dB
-// item ids of the list for a kind of sink
-constexpr int noSinkId = 1, anySinkId = 2, otherSinkId = 3, firstSinkId = 4;
+constexpr int firstSinkId = 1000;        // item ids of the list of outputs: behind those of devices
 
 struct Cell {
     juce::Label& name;
@@ -38,29 +37,11 @@ void placeGrid(juce::Rectangle<int>& area, const std::vector<Cell>& cells) {
 
 } // namespace
 
-struct OutputTab::SinkChoice {
-    explicit SinkChoice(const SinkKind& of)
-        : kind{of} {
-        box.setTitle(kind.title.data());
-        box.setTooltip(kind.about.data());
-    }
-    const SinkKind& kind;
-    Caption name{kind.title.data()};
-    juce::ComboBox box{};
-    std::vector<std::string> places{};
-};
-
 OutputTab::~OutputTab() = default;
 
 OutputTab::OutputTab(MixerModel& model)
     : model_{model} {
     setTitle("Output");
-    for (const SinkKind& kind : sinkKinds()) {
-        auto& sink = *sinks_.emplace_back(std::make_unique<SinkChoice>(kind));
-        sink.box.onChange = [this, &sink] { choose(sink); };
-        addAndMakeVisible(sink.name);
-        addAndMakeVisible(sink.box);
-    }
     describe(monitor_, "Monitor",
              "Two outputs, left and right: each hit is heard where it is felt, also without actuators");
     describe(monitorLevel_, "Level of the monitor",
@@ -94,50 +75,62 @@ void OutputTab::visibilityChanged() {
 
 void OutputTab::scan() {
     found_ = listAudioDevices(model_.device().drivers());
-    for (const auto& sink : sinks_) list(*sink);
+    findSinks();
     isScanned_ = true;
     mixChanged();
 }
 
-// The requested sink is listed even if it is not available.
-void OutputTab::list(SinkChoice& sink) {
-    const auto wanted = model_.device().choice().placeOf(sink.kind);
-    sink.places.clear();
-    sink.box.clear(juce::dontSendNotification);
-    sink.box.addItem("none", noSinkId);
-    const auto add = [&sink](const SinkPlace& place) {
-        sink.box.addItem(utf8(place.where) +
-                             (place.about.empty() ? juce::String{} : "  " + utf8(place.about)),
-                         firstSinkId + static_cast<int>(sink.places.size()));
-        sink.places.push_back(place.where);
-    };
-    const auto there = sink.kind.places();
-    sink.box.addItem(there.empty() ? "none is plugged in" : "the first there", anySinkId);
-    for (const SinkPlace& place : there) add(place);
-    if (!wanted.empty() && wanted != sink.kind.any &&
-        std::ranges::find(sink.places, wanted) == sink.places.end())
-        add({wanted, "not plugged in"});
-    if (!sink.kind.other.empty())
-        sink.box.addItem("another " + juce::String{sink.kind.other.data()}.toLowerCase() + dots(),
-                         otherSinkId);
-    const auto at = std::ranges::find(sink.places, wanted);
-    sink.box.setSelectedId(wanted.empty() ? noSinkId
-                           : wanted == sink.kind.any
-                               ? anySinkId
-                               : firstSinkId + static_cast<int>(at - sink.places.begin()),
-                           juce::dontSendNotification);
+void OutputTab::findSinks() {
+    sinks_.clear();
+    for (const SinkKind& kind : sinkKinds()) sinks_.push_back(kind.places());
 }
 
-void OutputTab::choose(SinkChoice& sink) {
-    const SinkKind& kind = sink.kind;
-    const int id = sink.box.getSelectedId();
-    const auto place = id == anySinkId     ? std::string{kind.any}
-                       : id >= firstSinkId ? sink.places[static_cast<std::size_t>(id - firstSinkId)]
-                                           : std::string{};
-    list(sink); // shows the unchanged choice: the user may yet cancel
-    if (id != otherSinkId) return use(kind, place);
-    ask(kind.title.data(), kind.other.data(), utf8(model_.device().choice().placeOf(kind)),
-        [this, &kind](const juce::String& where) { use(kind, where.toStdString()); });
+// What can play beside the device: what is not there is greyed, and says so.
+void OutputTab::listSinks() {
+    rows_.clear();
+    device_.addSectionHeading("Beside it");
+    const auto add = [this](const SinkKind& kind, const std::string& where, const juce::String& words,
+                            bool isThere, bool isUsed) {
+        juce::PopupMenu::Item item{juce::String{kind.title.data()} + ": " + words +
+                                   (isUsed ? ", in use" : "")};
+        item.itemID = firstSinkId + static_cast<int>(rows_.size());
+        if (!isThere) item.colour = shade(*this, Shade::muted);
+        device_.getRootMenu()->addItem(item);
+        rows_.push_back({kind, where, isThere, isUsed});
+    };
+    sinks_.resize(sinkKinds().size());
+    for (std::size_t k = 0; k < sinks_.size(); ++k) {
+        const SinkKind& kind = sinkKinds()[k];
+        const auto wanted = model_.device().choice().placeOf(kind);
+        bool isMissed = !wanted.empty();
+        for (const SinkPlace& place : sinks_[k]) {
+            const bool isUsed = isMissed && (wanted == place.where || wanted == kind.any);
+            add(kind, place.where,
+                utf8(place.where) + (place.about.empty() ? juce::String{} : "  " + utf8(place.about)), true,
+                isUsed);
+            isMissed = isMissed && !isUsed;
+        }
+        if (isMissed)
+            add(kind, wanted, (wanted == kind.any ? "none" : utf8(wanted) + " is not") + " there yet", false,
+                true);
+        else if (sinks_[k].empty())
+            add(kind, std::string{kind.any}, "none is plugged in", false, false);
+        if (!kind.other.empty())
+            add(kind, {}, "another " + juce::String{kind.other.data()}.toLowerCase() + dots(), true, false);
+    }
+}
+
+void OutputTab::choose(const SinkRow& row) {
+    const SinkKind& kind = row.kind;
+    if (row.isUsed) return use(kind, {});
+    if (row.where.empty())
+        return ask(kind.title.data(), kind.other.data(), utf8(model_.device().choice().placeOf(kind)),
+                   [this, &kind](const juce::String& where) { use(kind, where.toStdString()); });
+    if (row.isThere) return use(kind, row.where);
+    model_.messages().show({juce::String{kind.title.data()} + ": none is plugged in. " + kind.about.data(),
+                            true,
+                            {"Use it once it is there", [this, &kind] { use(kind, std::string{kind.any}); }},
+                            "absent"});
 }
 
 void OutputTab::use(const SinkKind& kind, const std::string& where) {
@@ -148,6 +141,11 @@ void OutputTab::use(const SinkKind& kind, const std::string& where) {
 }
 
 void OutputTab::open() {
+    if (const auto row = device_.getSelectedId() - firstSinkId; row >= 0) {
+        const SinkRow chosen = rows_[static_cast<std::size_t>(row)];
+        mixChanged(); // shows the unchanged choice: the user may yet cancel
+        return choose(chosen);
+    }
     const int index = device_.getSelectedId() - 1;
     DeviceChoice choice = model_.device().choice();
     if (index >= 0 && index < static_cast<int>(found_.size()))
@@ -274,9 +272,12 @@ void OutputTab::mixChanged() {
     const int earsId = static_cast<int>(found_.size()) + 1;
     if (!worn_.empty()) device_.addItem("Headphones: " + utf8(worn_) + " (L and R)", earsId);
     if (choice.isHeadphones && !isNone) chosen = earsId;
+    listSinks();
     device_.setSelectedId(chosen, juce::dontSendNotification);
-    if (chosen == 0)
-        device_.setText(isNone ? juce::String{noDeviceTitle} : utf8(choice.name), juce::dontSendNotification);
+    auto all = !isNone ? (chosen > 0 ? device_.getText() : utf8(choice.name))
+                       : juce::String{choice.sinks.empty() ? noDeviceTitle : "No device"};
+    for (const SinkName& sink : choice.sinks) all << " + " << kindOf(sink).title.data();
+    device_.setText(all, juce::dontSendNotification);
     rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
     block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
     listHeard();
@@ -297,16 +298,19 @@ void OutputTab::refresh(const MixerMoment& moment) {
     std::vector<Fact> facts{
         {"State",
          !moment.device.isRunning ? juce::String{"not running"}
-         : isNone                 ? juce::String{"a clock without a device: nothing is felt"}
+         : isNone                 ? juce::String{"a clock without a device"}
                                   : juce::String{"running"},
          !moment.device.isRunning ? Shade::limit
          : isNone                 ? Shade::now
                                   : Shade::text},
         {"Runs at", number(rate, 0) + " Hz, blocks of " + juce::String{output.blockFrames()} + " frames (" +
                         number(1e3 * output.blockFrames() / rate, 1) + " ms)"},
-        {"Felt", number(1e3 * model_.device().outputLatencySeconds(), 1) +
-                     " ms after the contact, and the device's own " +
-                     number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms"},
+        {"Felt", model_.isOnlySeen()
+                     ? juce::String{"by nobody: it is seen alone"}
+                     : number(1e3 * model_.device().outputLatencySeconds(), 1) + " ms after the contact" +
+                           (isNone ? juce::String{}
+                                   : ", and the device's own " +
+                                         number(1e3 * output.deviceLatencyFrames() / rate, 1) + " ms")},
         {"Heard", heardWords(),
          !model_.device().choice().monitor.empty() && model_.device().listening().settings().contacts.empty()
              ? Shade::now
@@ -333,7 +337,7 @@ void OutputTab::refresh(const MixerMoment& moment) {
     const auto sinks = model_.session().sinks().states();
     if (const auto ready = std::ranges::count_if(sinks, &SinkState::isReady);
         std::exchange(ready_, ready) != ready && isScanned_)
-        for (const auto& sink : sinks_) list(*sink);
+        findSinks(), mixChanged();
 }
 
 void OutputTab::resized() {
@@ -343,24 +347,15 @@ void OutputTab::resized() {
     scan_->setBounds(row.removeFromRight(90));
     row.removeFromRight(gap);
     device_.setBounds(row);
-    std::vector<Cell> cells{{rateName_, rate_},
-                            {blockName_, block_},
-                            {marksName_, marks_},
-                            {monitorName_, monitor_},
-                            {monitorLevelName_, monitorLevel_}};
-    for (const auto& sink : sinks_) cells.push_back({sink->name, sink->box});
-    for (const Cell& cell : {Cell{oscName_, osc_}, {hitsName_, hits_}, {phoneName_, phone_}})
-        cells.push_back(cell);
+    const std::vector<Cell> cells{{rateName_, rate_},
+                                  {blockName_, block_},
+                                  {marksName_, marks_},
+                                  {monitorName_, monitor_},
+                                  {monitorLevelName_, monitorLevel_},
+                                  {oscName_, osc_},
+                                  {hitsName_, hits_},
+                                  {phoneName_, phone_}};
     placeGrid(area, cells);
-    for (const auto& sink : sinks_) {
-        auto words = juce::StringArray::fromTokens(sink->kind.title.data(), false); // as many as fit
-        while (words.size() > 1 && text::pixels(sink->name.getFont(), words.joinIntoString(" ")) +
-                                           sink->name.getBorderSize().getLeftAndRight() >
-                                       sink->name.getWidth())
-            words.remove(words.size() - 1);
-        if (words.size() > 1 && words[words.size() - 1] == "by") words.remove(words.size() - 1);
-        sink->name.setText(words.joinIntoString(" "), juce::dontSendNotification);
-    }
     area.removeFromTop(12);
     facts_.setBounds(area);
 }

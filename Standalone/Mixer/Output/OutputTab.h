@@ -13,7 +13,7 @@ public:
     void mixChanged() override;
     void refresh(const MixerMoment& moment) override;
     void resized() override;
-    int minHeight(int) const override { return 528; } // all of its facts
+    int minHeight(int) const override { return 412; } // all of its facts
     void visibilityChanged() override;
     /// Sets the receiver HOST:PORT as if typed; empty: none.
     void sendHitsTo(const juce::String& receiver);
@@ -23,9 +23,14 @@ private:
     void open();
 
     MixerModel& model_;
-    struct SinkChoice;
-    void list(SinkChoice& choice);
-    void choose(SinkChoice& choice);
+    struct SinkRow { // of the list of outputs
+        const SinkKind& kind;
+        std::string where; ///< empty: to be typed
+        bool isThere, isUsed;
+    };
+    void findSinks();
+    void listSinks();
+    void choose(const SinkRow& row);
     void use(const SinkKind& kind, const std::string& where);
     void prepareOsc();
     void listen();
@@ -43,15 +48,16 @@ private:
     juce::String heardWords() const;
 
     juce::ComboBox device_, rate_, block_, osc_, hits_, phone_, monitor_, monitorLevel_, marks_;
-    Caption deviceName_{"Device"}, rateName_{"Rate"}, blockName_{"Block of"}, oscName_{"Messages by OSC"},
+    Caption deviceName_{"Outputs"}, rateName_{"Rate"}, blockName_{"Block of"}, oscName_{"Messages by OSC"},
         hitsName_{"Hits by OSC to"}, phoneName_{"A phone's top is"}, monitorName_{"Monitor outputs"},
         monitorLevelName_{"Monitor level"}, marksName_{"Trigger output"};
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;
     std::string worn_; // what headphones are on: the device last played, else the first that has two outputs
-    std::vector<std::unique_ptr<SinkChoice>> sinks_; // one per entry of the table of sinks
-    std::ptrdiff_t ready_ = 0;                       // how many sinks are there
+    std::vector<std::vector<SinkPlace>> sinks_; // that are there, of each entry of the table of sinks
+    std::vector<SinkRow> rows_;
+    std::ptrdiff_t ready_ = 0; // how many sinks are there
     bool isScanned_ = false;
 };
 

@@ -182,7 +182,7 @@ void TakesTab::exportTo(const juce::File& file) {
         error = events.getFullPathName() + ": is of another recording and cannot be deleted";
     if (error.isNotEmpty()) return model_.report(error);
     model_.messages().show(
-        {"Copied to " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}, "saved"});
+        {"Copied to " + file.getFullPathName(), true, {"Show", [file] { file.revealToUser(); }}, savedLabel});
 }
 
 void TakesTab::askErase() {

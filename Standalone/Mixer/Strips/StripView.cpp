@@ -139,7 +139,7 @@ void StripView::resized() {
     test_->setBounds(row.removeFromLeft(row.getWidth() * 6 / 10));
     sweep_.setBounds(row);
     output_.setBounds(area.removeFromBottom(24).reduced(2, 1));
-    place(area, std::max(0, (getWidth() - easyWidth) / 2));
+    place(area, std::max(0, (getWidth() - wholeWidth) / 2), getWidth() >= easyWidth);
 }
 
 } // namespace physvib

@@ -11,8 +11,9 @@ namespace physvib {
 
 class StripView final : public StripParts, public juce::FileDragAndDropTarget {
 public:
-    /// They share the panel; from `easyWidth` on each button is as wide as a pointer needs.
-    static constexpr int width = 78, easyWidth = 104, mostWidth = 132;
+    /// They share the panel; from `easyWidth` on buttons as wide as a pointer needs are beside the fader,
+    /// from `wholeWidth` on with the scale's figures.
+    static constexpr int width = 78, easyWidth = 108, wholeWidth = 128, mostWidth = 140;
 
     StripView(MixerModel& model, int strip);
     void mixChanged();

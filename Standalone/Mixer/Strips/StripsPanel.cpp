@@ -199,7 +199,7 @@ void GroupView::paint(juce::Graphics& g) {
     auto area = getLocalBounds();
     g.setColour(shade(*this, Shade::raised));
     g.fillRoundedRectangle(area.toFloat(), 6.0f);
-    drawScale(g, fader_);
+    drawScale(g, fader_, getWidth());
     auto bar = area.removeFromTop(4).toFloat();
     std::vector<int> members;
     for (int j = 0; j < model_.mix().count(); ++j)
@@ -225,9 +225,8 @@ void GroupView::resized() {
     name_.setBounds(area.withTrimmedTop(4).removeFromTop(20).reduced(3, 0));
     area.removeFromTop(MasterStrip::metersTop);
     remove_->setBounds(area.removeFromBottom(20).reduced(2, 0));
-    area.removeFromBottom(24);
-    level_.setBounds(area.removeFromBottom(18));
     mute_.setBounds(area.removeFromBottom(24).withSizeKeepingCentre(28, 24));
+    level_.setBounds(area.removeFromBottom(18));
     area.removeFromBottom(8);
     fader_.setBounds(area.withSizeKeepingCentre(32, area.getHeight()).expanded(0, 8));
 }

@@ -121,11 +121,8 @@ int Card::answersHigh() const {
 void Card::fit() {
     prepareControls(*this);
     const auto middle = getBounds().getCentre();
-    juce::AttributedString said{words()};
-    said.setFont(words_.getFont());
-    juce::TextLayout lines;
-    lines.createLayout(said, static_cast<float>(width_ - 2 * edgeX - 4));
-    const int lineHigh = words().isEmpty() ? 0 : 18 + static_cast<int>(std::ceil(lines.getHeight()));
+    const int lineHigh =
+        words().isEmpty() ? 0 : 18 + text::high(words_.getFont(), words(), width_ - 2 * edgeX - 4);
     const int high = 2 * edgeY + titleHigh + lineHigh + contentHigh() + gap + answersHigh();
     const auto beside = aside();
     setSize(width_ + (beside.x > 0 ? edgeX + beside.x : 0), std::max(high, beside.y + 2 * edgeY));
@@ -345,7 +342,7 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
         if (field.onChange)
             added.list.onChange =
                 added.text.onTextChange = [this, &added, use = field.onChange] { use(*this, added.value()); };
-        added.text.onReturnKey = [this] { act(0); };
+        added.text.onReturnKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::returnKey}); };
         added.text.onEscapeKey = [this] { keyPressed(juce::KeyPress{juce::KeyPress::escapeKey}); };
     }
     fit();
@@ -368,6 +365,20 @@ void QuestionCard::setValue(const juce::String& field, const juce::String& value
             input->text.setText(value, false);
             input->list.setText(value, juce::dontSendNotification);
         }
+}
+
+void QuestionCard::enable(const juce::String& answer, bool isEnabled) {
+    for (std::size_t k = 0; k < answers_.size(); ++k)
+        if (answers_[k].words == answer) buttons_[k]->setEnabled(answers_[k].isEnabled = isEnabled);
+}
+
+void QuestionCard::setFirst(const juce::String& answer) {
+    const juce::KeyPress enter{juce::KeyPress::returnKey};
+    for (std::size_t k = 0; k < answers_.size(); ++k) {
+        const bool isFirst = answers_[k].words == answer;
+        if (isFirst || answers_[k].key == enter) answers_[k].key = isFirst ? enter : juce::KeyPress{};
+        buttons_[k]->setToggleState(isFirst, juce::dontSendNotification);
+    }
 }
 
 void QuestionCard::answer(const juce::String& words) {

@@ -63,7 +63,7 @@ void MasterStrip::paintFlat(juce::Graphics& g) const {
 
 void MasterStrip::paint(juce::Graphics& g) {
     if (isFlat_) return paintFlat(g);
-    drawScale(g, fader_);
+    drawScale(g, fader_, getWidth());
     g.setColour(shade(*this, Shade::text));
     g.setFont(text::font(text::medium, juce::Font::bold));
     g.drawText("Master", getLocalBounds().withTrimmedTop(4).removeFromTop(20), juce::Justification::centred,
@@ -87,7 +87,7 @@ void MasterStrip::resized() {
     ceiling_ = area.removeFromBottom(20);
     ceilingName_ = area.removeFromBottom(20);
     limiterText_ = area.removeFromBottom(22);
-    area.removeFromBottom(32);
+    area.removeFromBottom(8);
     meter_.setBounds(area.withX(10).withWidth(14));
     limiter_.setBounds(area.withX(31).withWidth(8));
     fader_.setBounds(area.withX(34).withWidth(40).expanded(0, 8));

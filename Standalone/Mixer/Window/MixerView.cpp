@@ -271,8 +271,8 @@ void MixerView::refresh() {
     strips_.refresh(latest_);
     constexpr double newsMs = 10e3;                                 // it lies over the materials to draw with
     const bool isShown = trouble_.getTooltip() == model_.trouble(); // the change may not have come yet
-    const bool isSeen = !act_->isVisible() || model_.messages().shown().label == "saved";
-    if (isShown && model_.isNews() && isSeen && nowMs() - newsAtMs_ > newsMs) model_.report({});
+    if (isShown && model_.isNews() && !model_.messages().shown().lasts() && nowMs() - newsAtMs_ > newsMs)
+        model_.report({});
     keepPace();
 }
 
@@ -305,9 +305,12 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     raiseCard();
 }
 
-// Esc closes a card or a menu; what sounds, or did as long ago as meters hold, is silenced as well.
+// Esc closes a card or a menu, and ends a drag; what sounds, or did as long ago as meters hold, is silenced
+// as well.
 bool MixerView::onlyCloses() {
-    if (openCard() == nullptr && juce::Component::getCurrentlyModalComponent() == nullptr) return false;
+    if (openCard() == nullptr && juce::Component::getCurrentlyModalComponent() == nullptr &&
+        !world_.isDragging())
+        return false;
     look();
     return model_.isOnlySeen() || std::ranges::all_of(latest_.holds, [](float h) { return h == 0.0f; });
 }
@@ -390,6 +393,7 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
     }
     // without a focused component, keys go to the screen before the world
     if (screen_ != nullptr && screen_->keyPressed(key)) return true;
+    if (key == KeyPress::escapeKey && world_.isDragging()) return world_.cancelDrag(), true;
     if (key == KeyPress::escapeKey) return model_.setSilent(true), true;
     if (key == KeyPress::F2Key) return bar_.onMode(), true;
     if (key == KeyPress::F3Key) return setPanels({panels().hasDrawer, !panels().hasLower}), true;
@@ -422,7 +426,7 @@ void MixerView::resized() {
         bar_.setBounds(area.removeFromTop(bar_.heightFor(getWidth())));
         const auto a =
             arrange(area.reduced(edge),
-                    {strips_.widthFor(StripView::easyWidth), strips_.widthFor(StripView::mostWidth)},
+                    {strips_.widthFor(StripView::wholeWidth), strips_.widthFor(StripView::mostWidth)},
                     dividers_, mode_, panels());
         for (const auto& [panel, bounds] :
              std::initializer_list<std::pair<juce::Component*, juce::Rectangle<int>>>{{&world_, a.world},
@@ -434,8 +438,7 @@ void MixerView::resized() {
                                                                                       {&between_, a.between}})
             panel->setBounds(bounds);
     }
-    const auto banner = world_.bannerArea() + world_.getPosition();
-    trouble_.setBounds(banner);
+    auto banner = world_.bannerArea() + world_.getPosition();
     auto buttons = banner.reduced(2);
     dismiss_->setBounds(buttons.removeFromRight(dismissWidth - 4));
     if (act_->isVisible())
@@ -443,9 +446,12 @@ void MixerView::resized() {
             buttons.removeFromRight(30 + text::pixels(text::font(text::medium), act_->getButtonText())));
     const juce::BorderSize<int> around{0, panelInset, 0, banner.getRight() - buttons.getRight() + 4};
     trouble_.setBorderSize(around);
-    trouble_.setText(fittingWords(trouble_.getTooltip(), trouble_.getFont(),
-                                  banner.getWidth() - around.getLeftAndRight() - 2),
+    const int room = banner.getWidth() - around.getLeftAndRight() - 2;
+    trouble_.setText(fittingWords(trouble_.getTooltip(), trouble_.getFont(), room),
                      juce::dontSendNotification);
+    constexpr int between = 8;
+    trouble_.setBounds(banner.withHeight(
+        std::max(banner.getHeight(), text::high(trouble_.getFont(), trouble_.getText(), room) + between)));
     placeCards();
 }
 

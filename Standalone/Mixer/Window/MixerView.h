@@ -47,7 +47,7 @@ struct Arrangement {
     juce::Rectangle<int> world, tabs, scope, strips;
     juce::Rectangle<int> side, lower, between; ///< the dividers' handles
 
-    static constexpr int seam = 8, minLower = 240, minWorldHeight = 240, minSide = 400, minStrips = 300,
+    static constexpr int seam = 8, minLower = 232, minWorldHeight = 240, minSide = 400, minStrips = 300,
                          minScope = 360;
 };
 

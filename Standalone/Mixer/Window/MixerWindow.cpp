@@ -29,8 +29,8 @@ OscUse oscUseNamed(const juce::String& name) {
 
 constexpr const char* chosenSetting = "device-chosen"; // the user has chosen a device, or none
 constexpr const char* silentSetting = "silent";
+constexpr const char* beforeEarsSetting = "outputs-before-headphones";
 constexpr const char* orderSetting = "mode";          // and which panels are unfolded; none: to play
-constexpr const char* noEarLabel = "ears";            // as reportNoEar() names it
 constexpr const char* folderSetting = "files-folder"; // of recordings and documents; empty: UserFolder's own
 constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the system reports
 /// Size of borders and title bar; the exact size is known only after the window exists.
@@ -56,6 +56,8 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     device_.monitorDb = settings.getDoubleValue("monitor-db", safeContactDb);
     device_.marker = settings.getIntValue("marker") - 1;
     device_.isHeadphones = device.isEmpty() && settings.getBoolValue("headphones");
+    for (const auto& output : juce::StringArray::fromTokens(settings.getValue(beforeEarsSetting), false))
+        device_.beforeEars.push_back(output.getIntValue());
     for (const SinkKind& kind : sinkKinds())
         device_.want(kind, settings.getValue(kind.setting.data()).toStdString());
     folder_->choose(juce::File::createFileWithoutCheckingPath(settings.getValue(folderSetting)));
@@ -104,6 +106,7 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused,
     const double exposure = model_ ? model_->exposure().squareGSeconds() : files_.exposureToday();
     if (view_) keepOrder();
     asked_.reset();
+    lost_.clear();
     clearContentComponent();
     view_.reset();
     model_.reset();
@@ -129,11 +132,13 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused,
     model_->recording().onEnd = [this](const juce::File& file, const juce::String& error) {
         lastRecording_ = file;
         view_->topBar().setRecording(false);
-        if (error.isEmpty())
+        if (error.isNotEmpty())
+            say(file.getFileName() + ": " + error);
+        else if (model_->recording().wasSilent())
+            announceSaved("Nothing was played meanwhile: a silent recording,", file);
+        else
             announceSaved("Recorded, with its events beside it:", file,
                           {"Play", [this, file] { model_->strikes().playTake(file); }});
-        else
-            say(file.getFileName() + ": " + error);
     };
     OscChoice osc{oscUseNamed(files_.settings().getValue("osc")),
                   files_.settings().getValue("osc-to").toStdString(),
@@ -218,6 +223,9 @@ void MixerWindow::timerCallback() {
                                          : ownOutputs({device_.name.substr(0, colon),
                                                        device_.name.substr(colon + 1), all}));
     settings.setValue("headphones", device_.isHeadphones);
+    juce::StringArray before;
+    for (const int output : device_.beforeEars) before.add(juce::String{output});
+    settings.setValue(beforeEarsSetting, before.joinIntoString(" "));
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
     settings.setValue("osc", oscUseNames[static_cast<std::size_t>(model_->inputs().choice().use)]);
@@ -262,14 +270,16 @@ Mix MixerWindow::firstMix() {
 // Shown once, if headphones may be connected in place of actuators.
 void MixerWindow::offerMonitor() {
     auto& settings = files_.settings();
-    if (settings.getBoolValue("monitor-offered") || model_->device().outputs() != 2 ||
-        !device_.sinks.empty() || !device_.monitor.empty() || device_.isHeadphones)
-        return;
-    settings.setValue("monitor-offered", true);
-    model_->messages().add(
-        {"This device has two outputs. With headphones there, what is felt can be heard: choose "
-         "them under Output",
-         true});
+    constexpr const char *offered = "monitor-offered", *label = "monitor-offer";
+    if (model_->device().outputs() != 2 || !device_.sinks.empty() || !device_.monitor.empty() ||
+        device_.isHeadphones)
+        return model_->messages().withdraw(label);
+    if (settings.getBoolValue(offered)) return;
+    settings.setValue(offered, true);
+    model_->messages().add({"This device has two outputs. With headphones there, what is felt can be heard",
+                            true,
+                            {"Show Output", [this] { view_->tabs().choose("Output"); }},
+                            label});
 }
 
 // Not while a study uses the mixer's output, or behind a card.
@@ -364,7 +374,7 @@ void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> act)
 }
 
 constexpr const char* keys =
-    "Esc\tsilence\nEsc, a card or menu open\tcloses it, silences what sounds or did 1.5 s before\n"
+    "Esc\tsilence\nEsc, a card, menu or drag\tends it, silences what sounds or did 1.5 s before\n"
     "Space\tpause\n.\tone step of a paused world\nF2\tplay or engineer\nF3\tstrips, and what is below\n"
     "F4\tthe drawer\nF10, Ctrl+Q\tmenu, quit\nF11\tfull screen\nArrow keys\ttilt\nShift + drag\tholds a "
     "body\n"
@@ -575,7 +585,11 @@ void MixerWindow::playLowered(const DeskLimits& most, Mix mix, const juce::File&
 }
 
 void MixerWindow::reportLowered(const std::string& lowered, const Mix& asked, const DeskLimits& most) {
-    desk_ = most.strips;
+    const auto& strips = model_->mix().strips;
+    lost_.clear();
+    for (std::size_t j = 0; j < std::min(most.strips.size(), strips.size()); ++j)
+        if (strips[j].output < 0 && asked.strips[j].output >= 0 && most.strips[j].output >= 0)
+            lost_.emplace_back(j, most.strips[j]);
     asked_ = lowered.empty() ? std::nullopt : std::optional{asked};
     if (asked_)
         model_->messages().add({"Lowered to this desk: " + utf8(lowered),
@@ -589,15 +603,13 @@ void MixerWindow::reportLowered(const std::string& lowered, const Mix& asked, co
 DeskLimits MixerWindow::limits() const {
     if (!model_) return files_.limits();
     DeskLimits now = DeskLimits::of(model_->mix());
-    if (!asked_) return now;
     const double loudestDb = now.loudestOutputDb() - now.levelDb;
-    for (std::size_t j = 0; j < std::min({now.strips.size(), desk_.size(), asked_->strips.size()}); ++j) {
-        const bool wasLost = now.strips[j].output < 0 && asked_->strips[j].output >= 0;
-        if (!wasLost || desk_[j].output < 0 ||
-            std::ranges::find(now.strips, desk_[j].output, &Strip::output) != now.strips.end())
+    for (const auto& [j, own] : lost_) {
+        if (j >= now.strips.size() || now.strips[j].output >= 0 ||
+            std::ranges::find(now.strips, own.output, &Strip::output) != now.strips.end())
             continue;
-        now.strips[j] = desk_[j];
-        now.strips[j].gainDb = std::min(now.strips[j].gainDb, loudestDb);
+        now.strips[j] = own;
+        now.strips[j].gainDb = std::min(own.gainDb, loudestDb);
     }
     return now;
 }
@@ -610,6 +622,7 @@ void MixerWindow::useAskedLevels() {
         if (asked_->count() == mix.count()) mix.strips = asked_->strips;
     });
     asked_.reset();
+    lost_.clear();
 }
 
 // A file on the command line is not an edit, so there is nothing to save yet.
@@ -644,7 +657,7 @@ static juce::String fromHome(const juce::File& file) {
 
 void MixerWindow::announceSaved(const juce::String& words, const juce::File& file, MixerAct act) {
     if (!act.run) act = {"Show", [file] { file.revealToUser(); }};
-    MixerMessage message{words + " " + fromHome(file), true, std::move(act), "saved"};
+    MixerMessage message{words + " " + fromHome(file), true, std::move(act), savedLabel};
     const bool isInFront = model_->isNews() || model_->messages().shown().label == noEarLabel; // which waits
     isInFront ? model_->messages().show(std::move(message)) : model_->messages().add(std::move(message));
 }
@@ -960,18 +973,19 @@ void MixerWindow::newScene(SceneGround ground) {
 
 namespace {
 
-constexpr const char *pageSetting = "page", *pageField = "Address of the page", *linkField = "Link";
-constexpr const char* ownPage = "http://127.0.0.1:8000/"; // where Docs/web.md serves it
+constexpr const char *pageSetting = "page", *pageField = "Address of the page", *linkField = "Link",
+                     *copyWords = "Copy the link", *openWords = "Open it";
 
 } // namespace
 
+// Where nobody has the page, the world goes as a file.
 void MixerWindow::share() {
     const auto link = pageLink(model_->mix(), model_->world().drawing().drawn());
-    const auto here = ownAddresses();
     if (!link) return say(utf8(link.error));
-    const auto page = served_.isEmpty() ? files_.settings().getValue(pageSetting, ownPage) : served_;
+    const auto kept = files_.settings().getValue(pageSetting);
+    const auto page = served_.isNotEmpty() ? served_ : isLoopback(kept) ? juce::String{} : kept;
     const auto at = [behind = utf8(link.value)](const juce::String& address) {
-        return address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
+        return address.isEmpty() ? address : address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
     };
     const auto whole = [this, at] {
         const auto address = view_->question()->value(pageField);
@@ -979,45 +993,54 @@ void MixerWindow::share() {
         view_->setCard(nullptr);
         return at(address);
     };
+    const bool canServe = served_.isEmpty() && PageServer::isThere();
     const juce::String sentence =
         "Who opens the link in the page gets the same world and samples. It stands behind the #, so no "
         "server gets it. " +
-        (served_.isNotEmpty()
-             ? juce::String{"The page is here while the mixer runs; a browser warns once of its certificate."}
-             : juce::String{PageServer::isThere() ? "127.0.0.1 is this computer alone; for"
-                                                  : "The page cannot be served here (Docs/web.md). For"} +
-                   " a phone, and a code that it reads, put an address that it can reach" +
-                   (here.empty() ? juce::String{"."} : ": this computer is " + utf8(here.front()) + "."));
-    const auto show = [at, sentence](QuestionCard& card, const juce::String& address) {
+        juce::String{served_.isNotEmpty()
+                         ? "The page is here while the mixer runs; a browser warns once of its certificate."
+                     : canServe
+                         ? "Serve it here gives the page, with a code that a phone reads, to who is in "
+                           "this network. Or type where else it is."
+                         : "Type where the page is, or save the scene for another mixer."};
+    const juce::String instead = canServe ? "Serve it here" : "Save as scene" + dots();
+    const auto show = [at, sentence, instead](QuestionCard& card, const juce::String& address) {
+        const bool isAlone = address.isEmpty() || isLoopback(address);
         card.setValue(linkField, at(address));
-        const auto code = isLoopback(address) ? juce::Image{} : qrPicture(at(address).toStdString());
+        for (const char* words : {copyWords, openWords}) card.enable(words, address.isNotEmpty());
+        card.setFirst(address.isEmpty() ? instead : juce::String{copyWords});
+        const auto code = isAlone ? juce::Image{} : qrPicture(at(address).toStdString());
         card.setPicture(code);
-        card.say("Share the world", isLoopback(address) || code.isValid()
+        card.say("Share the world", isAlone || code.isValid()
                                         ? sentence
                                         : sentence + " This world's link is too long for a code.");
     };
     std::vector<std::pair<juce::String, std::function<void()>>> answers{
-        {"Copy the link",
+        {copyWords,
          [this, whole] {
              const auto words = whole();
              juce::SystemClipboard::copyTextToClipboard(words);
              model_->announce("Copied a link of " + juce::String{words.length()} + " characters");
          }},
-        {"Open it", [whole] { openLink(whole()); }}};
-    if (served_.isEmpty() && PageServer::isThere())
-        answers.insert(answers.begin(), {"Serve it here", [this] { serve(); }});
+        {openWords, [whole] { openLink(whole()); }}};
+    if (served_.isEmpty())
+        answers.push_back({instead, [this, canServe] {
+                               view_->setCard(nullptr);
+                               canServe ? serve() : saveScene(false);
+                           }});
     ask("Share the world", sentence, std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
     show(*view_->question(), page);
 }
 
 // Phones give no sound and no sensors to a page without https; its certificate takes a moment.
 void MixerWindow::serve() {
-    view_->setCard(nullptr);
     server_ = std::make_shared<PageServer>();
     juce::Thread::launch([server = server_, window = SafePointer{this}] {
         juce::MessageManager::callAsync([window, address = server->begin()] {
             if (window == nullptr) return;
             if (!address) return window->say(utf8(address.error));
+            if (isLoopback(utf8(address.value)))
+                return window->say("This computer is in no network: nobody would reach the page");
             window->served_ = utf8(address.value);
             window->share();
         });

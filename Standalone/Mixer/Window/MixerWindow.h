@@ -137,9 +137,9 @@ private:
     std::unique_ptr<MixerModel> model_;
     std::unique_ptr<MixerView> view_;
     juce::File document_, lastRecording_;
-    std::optional<Mix> asked_;         // state of the last file, if its levels were lowered
-    std::vector<Strip> desk_;          // what they were lowered to
-    std::optional<DeskLimits> before_; // limits before a run that crashed
+    std::optional<Mix> asked_;                        // state of the last file, if its levels were lowered
+    std::vector<std::pair<std::size_t, Strip>> lost_; // outputs that it took from strips
+    std::optional<DeskLimits> before_;                // limits before a run that crashed
     static constexpr std::uint64_t neverSaved = UINT64_MAX; // never equals a count of edits
     std::uint64_t savedEdits_ = 0;
     std::unique_ptr<RenderTask> rendering_;

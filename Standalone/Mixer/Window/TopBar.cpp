@@ -83,9 +83,8 @@ TopBar::TopBar(MixerModel& model)
     silence_.getProperties().set(stopProperty, true);
     silence_.setMouseClickGrabsKeyboardFocus(false); // an open card keeps it
     describe(silence_, "Silence",
-             "Silence every actuator at once; a press lifts the silence. Esc silences too; an open card or "
-             "menu it "
-             "closes, and then silences only what sounds, or did 1.5 s before");
+             "Silence every actuator at once; a press lifts the silence. Esc silences too; an open card, "
+             "menu or drag it ends, and then silences only what sounds, or did 1.5 s before");
     silence_.onClick = [this] { model_.setSilent(!model_.isSilent()); };
     addAll(*this, {&menu_, &save_, &undo_, &redo_, &scene_, &pause_, &step_, &slow_, &restart_, &seed_,
                    &time_, &record_, &mode_, &device_, &board_, &load_, &silence_});
@@ -170,17 +169,16 @@ void TopBar::refresh(const MixerMoment& moment) {
                whole = felt + "after the contact";
     const int beside = getHeight() > lineHeight ? 170 : 0; // for the name, in its line
     const bool isWhole = text::pixels(text::font(text::small), whole) <= device_.getWidth() - beside;
+    const auto shown = isNone ? juce::String{"No device"} : name;
+    const bool isSeen = model_.isOnlySeen();
     if (!moment.device.isRunning)
         device_.set("No sound", model_.device().trouble(), Shade::limit);
     else
-        device_.set(isPlay_ && isNone ? juce::String{"No device"}
-                    : isPlay_         ? name
-                                      : dotted({isNone ? juce::String{"No device"} : name, numbers,
-                                                juce::String{output.blockFrames()}}),
-                    isPlay_ && isNone ? juce::String{"seen, not felt"}
-                    : isWhole         ? whole
-                                      : felt + "later",
-                    isNone ? Shade::now : Shade::text);
+        device_.set(isPlay_ ? shown : dotted({shown, numbers, juce::String{output.blockFrames()}}),
+                    isSeen    ? juce::String{"seen, not felt"}
+                    : isWhole ? whole
+                              : felt + "later",
+                    isSeen ? Shade::now : Shade::text);
     device_.setTooltip(name);
     const bool hadLoad = isToldOfLoad_;
     const auto& r = moment.session.render;

@@ -123,7 +123,8 @@ public:
         if (getToggleState()) g.drawRoundedRectangle(getLocalBounds().toFloat().reduced(0.75f), 6.0f, 1.5f);
         g.setColour(colour_);
         const float middle = 0.5f * static_cast<float>(getHeight());
-        g.strokePath(decay(), juce::PathStrokeType{1.6f}, juce::AffineTransform::translation(7.0f, middle));
+        const float left = std::min(7.0f, 0.5f * static_cast<float>(getWidth()) - 9.0f);
+        g.strokePath(decay(), juce::PathStrokeType{1.6f}, juce::AffineTransform::translation(left, middle));
         g.setColour(shade(*this, getToggleState() ? Shade::text : Shade::muted));
         if (!isFelt_) g.drawLine(5.0f, middle + 8.0f, 27.0f, middle - 8.0f, 1.5f); // struck out
         g.setFont(text::font(text::small));
@@ -154,6 +155,12 @@ private:
     bool isFelt_ = true;
 };
 
+namespace {
+bool vibrates(const Scene& scene, const BodyDescription& body) {
+    return scene.materials[static_cast<std::size_t>(body.fixtures[0].material)].frequencyHz > 0.0;
+}
+} // namespace
+
 BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
     : model_{model}
     , pane_{pane} {
@@ -179,8 +186,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
     source_.onClick = [this, change] {
         bool canBe = !source_.getToggleState();
         change("Haptic source", [&canBe, is = !canBe](const Scene& s, BodyDescription& b) {
-            if (is && s.materials[static_cast<std::size_t>(b.fixtures[0].material)].frequencyHz <= 0.0)
-                return;
+            if (is && !vibrates(s, b)) return;
             setSource(s, b, is);
             canBe = true;
         });
@@ -277,18 +283,30 @@ void BodyPanel::show() {
         const auto& f = b.fixtures[0];
         return f.restitution.value_or(scene.materials[static_cast<std::size_t>(f.material)].restitution);
     };
-    const auto isSource = [](const BodyDescription& b) {
-        return std::ranges::any_of(b.fixtures, &FixtureDescription::isCamera);
-    };
-    const auto isMoving = [](const BodyDescription& b) { return b.type == BodyType::dynamicBody; };
     const auto marked = [](const char* words, bool isMarked) {
         return words + (isMarked ? juce::String::charToString(0x2260) : juce::String{}); // not equal
     };
     densityName_.setText(marked("density", differ([&](const auto& b) { return densityOf(scene, b); })),
                          juce::dontSendNotification);
     bounceName_.setText(marked("bounce", differ(bounceOf)), juce::dontSendNotification);
-    moves_.setButtonText(marked("moves", differ(isMoving)));
-    source_.setButtonText(marked("haptic source", differ(isSource)));
+    // ticked if all that can be are: else a press makes them
+    const auto tick = [&](juce::ToggleButton& button, const char* words, auto can, auto is) {
+        int all = 0, are = 0;
+        for (const std::string& name : chosen)
+            if (const auto* b = model_.world().drawing().find(name); b != nullptr && can(*b))
+                ++all, are += is(*b) ? 1 : 0;
+        button.setToggleState(all > 0 && are == all, juce::dontSendNotification);
+        button.setButtonText(marked(words, are > 0 && are < all));
+    };
+    tick(
+        moves_, "moves",
+        [](const BodyDescription& b) {
+            return !std::holds_alternative<ChainShape>(b.fixtures[0].shape); // a line stays where it is
+        },
+        [](const BodyDescription& b) { return b.type == BodyType::dynamicBody; });
+    tick(
+        source_, "haptic source", [&scene](const BodyDescription& b) { return vibrates(scene, b); },
+        isSource);
     const bool isMixed = differ([](const auto& b) { return b.fixtures[0].material; });
     const auto material =
         isMixed ? juce::String{"several materials"}
@@ -312,8 +330,6 @@ void BodyPanel::show() {
         (chosen.size() == 1 ? utf8(chosen[0]) : juce::String{static_cast<int>(chosen.size())} + " bodies") +
             " " + juce::String::charToString(0x00b7) + " " + material,
         juce::dontSendNotification);
-    moves_.setToggleState(isMoving(*body), juce::dontSendNotification);
-    source_.setToggleState(isSource(*body), juce::dontSendNotification);
     if (!density_.isMouseButtonDown()) density_.setValue(densityOf(scene, *body), juce::dontSendNotification);
     if (!bounce_.isMouseButtonDown()) bounce_.setValue(bounceOf(*body), juce::dontSendNotification);
 }
@@ -323,18 +339,22 @@ void BodyPanel::paint(juce::Graphics& g) {
     g.fillRoundedRectangle(getLocalBounds().toFloat(), 8.0f);
 }
 
+int BodyPanel::nameHigh() const {
+    return std::max(20, text::high(name_.getFont(), name_.getText(), wide - 2 * edge - 12) + 4);
+}
+
 void BodyPanel::resized() {
-    auto area = getLocalBounds().reduced(6);
-    name_.setBounds(area.removeFromTop(24));
+    auto area = getLocalBounds().reduced(edge);
+    name_.setBounds(area.removeFromTop(nameHigh()));
     auto row = area.removeFromTop(rowHigh);
-    moves_.setBounds(row.removeFromLeft(82));
+    moves_.setBounds(row.removeFromLeft(84));
     source_.setBounds(row);
     for (int k = 0; auto& swatch : materials_) {
         if (k++ % perRow == 0) row = area.removeFromTop(rowHigh);
-        swatch->setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1));
+        swatch->setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1, 0));
     }
     if (std::ssize(materials_) % perRow == 0) row = area.removeFromTop(rowHigh);
-    new_.setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1));
+    new_.setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1, 0));
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},
                                         {&speedName_, &speed_},
@@ -427,6 +447,7 @@ void MaterialPalette::show() {
         juce::dontSendNotification);
     count_.setVisible(pane_.tool() == DrawTool::rain);
     way_.setVisible(pane_.tool() == DrawTool::rain);
+    placeName();
     for (int i = 0; i < static_cast<int>(swatches_.size()); ++i) {
         auto& swatch = *swatches_[static_cast<std::size_t>(i)];
         swatch.setToggleState(i == pane_.material(), juce::dontSendNotification);
@@ -449,7 +470,14 @@ void MaterialPalette::resized() {
     }
     new_.setBounds(area.removeFromLeft(newWide));
     name_.setVisible(!areNamed);
-    name_.setBounds(area);
+    placeName();
+}
+
+// Over the room of the rain's lists while those are not there.
+void MaterialPalette::placeName() {
+    name_.setBounds(getLocalBounds()
+                        .withLeft(new_.getRight())
+                        .withRight(count_.isVisible() ? count_.getX() : getWidth()));
 }
 
 } // namespace physvib

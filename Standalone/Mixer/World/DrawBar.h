@@ -50,6 +50,7 @@ private:
     std::set<std::tuple<bool, int, bool>> surfaces_; // those that the remarks are about
     std::vector<std::unique_ptr<MaterialSwatch>> swatches_;
     SignButton new_{Sign::plus, "New material"};
+    void placeName();
     Caption name_; // of the chosen one, where there is no room for all of them
     juce::ComboBox count_, way_;
 };
@@ -65,13 +66,14 @@ public:
     void resized() override;
     int wantedHeight() const {
         const int rows = static_cast<int>(materials_.size()) / perRow + 1; // with the one that makes another
-        return high + rows * rowHigh + (drivenJoint_.empty() ? 0 : 2 * rowHigh) +
+        return 2 * edge + nameHigh() + (3 + rows) * rowHigh + (drivenJoint_.empty() ? 0 : 2 * rowHigh) +
                (springJoint_.empty() ? 0 : rowHigh);
     }
-    static constexpr int wide = 230;
+    static constexpr int wide = 208;
 
 private:
-    static constexpr int high = 122, rowHigh = 28, perRow = 7;
+    static constexpr int edge = 5, rowHigh = 24, perRow = 7;
+    int nameHigh() const; ///< in as many lines as it needs
     void edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit);
 
     MixerModel& model_;

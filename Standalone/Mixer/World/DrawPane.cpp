@@ -35,14 +35,19 @@ DrawPane::DrawPane(MixerModel& model, WorldView& view)
 
 void DrawPane::use(DrawTool tool) {
     tool_ = tool;
-    stroke_.clear();
-    isDrawing_ = false;
+    cancelStroke();
     setInterceptsMouseClicks(tool != DrawTool::hand, false);
     setMouseCursor(tool == DrawTool::choose ? juce::MouseCursor::NormalCursor
                                             : juce::MouseCursor::CrosshairCursor);
     if (tool != DrawTool::choose) chosen_.clear();
     if (!isPicked_) material_ = usualMaterial(drawing().drawn(), tool);
     if (onChange) onChange();
+}
+
+void DrawPane::cancelStroke() {
+    stroke_.clear();
+    isDrawing_ = false;
+    grip_ = Grip::none;
     repaint();
 }
 
@@ -166,6 +171,7 @@ void DrawPane::mouseMove(const juce::MouseEvent& e) {
 }
 
 void DrawPane::mouseDrag(const juce::MouseEvent& e) {
+    if (!isDrawing_) return;
     if (tool_ == DrawTool::eraser) return erase(e);
     to_ = tool_ == DrawTool::choose ? view_.metresAt(e.position) : at(e);
     if (tool_ == DrawTool::line) stroke_.push_back(to_);
@@ -174,7 +180,6 @@ void DrawPane::mouseDrag(const juce::MouseEvent& e) {
 
 void DrawPane::mouseUp(const juce::MouseEvent& e) {
     if (!isDrawing_ || tool_ == DrawTool::polygon) return;
-    isDrawing_ = false;
     const bool hasMoved = e.getDistanceFromDragStart() > 2;
     if (isStroke(tool_))
         addStroke();
@@ -195,9 +200,7 @@ void DrawPane::mouseUp(const juce::MouseEvent& e) {
             choose(inside);
         }
     }
-    grip_ = Grip::none;
-    stroke_.clear();
-    repaint();
+    cancelStroke();
 }
 
 void DrawPane::mouseDoubleClick(const juce::MouseEvent&) {
@@ -314,9 +317,7 @@ void DrawPane::add(Result<std::vector<BodyDescription>> bodies) {
 
 void DrawPane::closePolygon() {
     addStroke();
-    stroke_.clear();
-    isDrawing_ = false;
-    repaint();
+    cancelStroke();
 }
 
 void DrawPane::addAt(DrawTool tool, Vector place) {
@@ -349,8 +350,7 @@ void DrawPane::erase(const juce::MouseEvent& e) {
     if (const auto joint = jointAt(e.position); !joint.empty())
         return edit("Erase", {UnjoinAction{joint}}, e.getDistanceFromDragStart() > 2);
     for (const auto& name : view_.bodiesAt(e.position))
-        if (drawing().find(name) != nullptr)
-            return edit("Erase", erased(drawing(), {name}), e.getDistanceFromDragStart() > 2);
+        if (drawing().find(name) != nullptr) return eraseAll({name}, e.getDistanceFromDragStart() > 2);
 }
 
 void DrawPane::setRainPattern(const RainPattern& pattern) {
@@ -549,7 +549,18 @@ void DrawPane::pasteAt(Vector place) {
 
 void DrawPane::copy(const std::vector<std::string>& names) { copied_ = copied(drawing(), names); }
 
-void DrawPane::eraseAll(const std::vector<std::string>& names) { edit("Erase", erased(drawing(), names)); }
+// What the script moves goes with that of the script: the world begins anew.
+void DrawPane::eraseAll(const std::vector<std::string>& names, bool continuesEdit) {
+    auto actions = erased(drawing(), names);
+    SceneDrawing trial = drawing();
+    trial.take(actions);
+    const bool isNeeded =
+        std::ranges::any_of(names, [&](const std::string& name) { return trial.find(name) != nullptr; });
+    if (!isNeeded) return edit("Erase", std::move(actions), continuesEdit);
+    const auto scene = std::make_shared<const Scene>(without(drawing().drawn(), names));
+    model_.change(
+        "Erase", [&scene](Mix& mix) { mix.scene = scene; }, continuesEdit);
+}
 
 bool DrawPane::handleToolKey(const juce::KeyPress& key) {
     if (key.getModifiers().isAnyModifierKeyDown()) return false;

@@ -55,10 +55,13 @@ public:
     void copy(const std::vector<std::string>& names);
     bool hasCopy() const noexcept { return !copied_.bodies.empty(); }
     void pasteAt(Vector place);
-    void eraseAll(const std::vector<std::string>& names);
+    void eraseAll(const std::vector<std::string>& names, bool continuesEdit = false);
 
     std::function<void()> onChange;                       ///< tool, selection or material changed
     std::function<void(juce::Point<float> place)> onMenu; ///< right click
+
+    bool isDrawing() const noexcept { return isDrawing_; } ///< or moves what is selected
+    void cancelStroke();
 
     void mixChanged(); ///< the mixer state changed
     bool handleKey(const juce::KeyPress& key);

@@ -267,6 +267,14 @@ void WorldPanel::mouseDrag(const juce::MouseEvent& e) {
 }
 
 void WorldPanel::mouseUp(const juce::MouseEvent&) {
+    isMoving_ = false;
+    if (std::exchange(pointed_, {}) && player_) play(player_->steer(0));
+}
+
+void WorldPanel::cancelDrag() {
+    view_.cancelDrag();
+    pane_.cancelStroke();
+    if (std::exchange(isMoving_, false)) model_.undoManager().undo();
     if (std::exchange(pointed_, {}) && player_) play(player_->steer(0));
 }
 
@@ -354,11 +362,17 @@ juce::String WorldPanel::whyNothing(double nowMs, bool isRunning) const {
     if (const auto why = whyMuted(); why.isNotEmpty()) return why;
     if (!isRunning) return "no device plays";
     if (model_.session().world().slowness() == 0) return "paused";
-    const auto isFixed = [](const BodyDescription& body) { return body.type == BodyType::staticBody; };
     const Scene& drawn = model_.world().drawing().drawn();
-    const auto brings = [](const ScriptInput& input) { return bodyPutBy(input.action) != nullptr; };
-    if (std::ranges::all_of(drawn.bodies, isFixed) && std::ranges::none_of(drawn.script, brings))
+    const auto hasBody = [&drawn](auto is) {
+        return std::ranges::any_of(drawn.bodies, is) ||
+               std::ranges::any_of(drawn.script, [&is](const ScriptInput& input) {
+                   const auto* brought = bodyPutBy(input.action);
+                   return brought != nullptr && is(*brought);
+               });
+    };
+    if (!hasBody([](const BodyDescription& body) { return body.type != BodyType::staticBody; }))
         return "draw a ball: B";
+    if (nowMs - hitAtMs_ > shownMs && !hasBody(isSource)) return "no body is a haptic source";
     return nowMs - hitAtMs_ > quietMs ? "no hits" : "";
 }
 

@@ -68,6 +68,9 @@ public:
     // Menu commands on an actuator that other panels carry out.
     std::function<void(int enchanter)> onOutput, onProfile;
 
+    bool isDragging() const { return view_.isDragging() || pane_.isDrawing(); }
+    void cancelDrag(); ///< all is as before it
+
     bool keyPressed(const juce::KeyPress& key) override;
     bool keyStateChanged(bool isDown) override;
     void mouseDown(const juce::MouseEvent&) override { isMoving_ = false; }

@@ -551,7 +551,8 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
         MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
         window.record();
         ASSERT_TRUE(window.model().recording().isRunning()) << window.model().trouble();
-        runUntil([&] { return window.model().recording().seconds() > 0.2; });
+        window.model().strikes().testPulse(0);
+        runUntil([&] { return window.model().recording().seconds() > 0.5; });
         reportNoEar(window.model(), {2, 3}); // waits behind what was recorded
         window.record();
         ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
@@ -571,6 +572,67 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
     EXPECT_NE(names[0], names[1]);
     EXPECT_EQ(cwd.getNumberOfChildFiles(juce::File::findFilesAndDirectories), 0);
     before.setAsCurrentWorkingDirectory();
+}
+
+TEST(Window, ARecordingOfNothingSaysSo) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    auto& model = window.model();
+    const auto record = [&](bool isStruck) {
+        const auto last = window.lastRecording();
+        window.record();
+        if (isStruck) model.strikes().testPulse(0);
+        runUntil([&] { return model.recording().seconds() > 0.5; });
+        window.record();
+        EXPECT_TRUE(runUntil([&] { return window.lastRecording() != last; }));
+        return model.trouble();
+    };
+    model.setSlowness(0);
+    ASSERT_TRUE(runUntil([&] {
+        window.view().refresh();
+        return std::ranges::all_of(window.view().latest().holds, [](float h) { return h == 0.0f; });
+    }));
+    EXPECT_TRUE(record(false).startsWith("Nothing was played")) << model.trouble();
+    EXPECT_EQ(model.messages().shown().act.name, "Show");
+    EXPECT_TRUE(record(true).startsWith("Recorded")) << model.trouble();
+    EXPECT_EQ(model.messages().shown().act.name, "Play");
+}
+
+TEST(Window, ShareLeadsWhereAPersonCanGo) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    window.share();
+    auto* card = window.view().question();
+    ASSERT_NE(card, nullptr);
+    runFor(0.1);
+    const auto said = [](juce::Component& in) {
+        juce::String all;
+        const std::function<void(juce::Component&)> read = [&](juce::Component& c) {
+            if (const auto* label = dynamic_cast<juce::Label*>(&c)) all << label->getText() << "\n";
+            if (const auto* text = dynamic_cast<juce::TextEditor*>(&c)) all << text->getText() << "\n";
+            for (auto* child : c.getChildren()) read(*child);
+        };
+        return read(in), all;
+    };
+    for (const char* nowhere : {"127.0.0.1", "localhost", "Docs/", ".md"})
+        EXPECT_FALSE(said(*card).contains(nowhere)) << said(*card);
+    EXPECT_TRUE(card->value("Link").isEmpty()) << "there is no page yet";
+    const auto button = [card](const juce::String& words) -> juce::Button& {
+        return dynamic_cast<juce::Button&>(*find(*card, words));
+    };
+    const juce::String instead = PageServer::isThere() ? "Serve it here" : "Save as scene" + dots();
+    EXPECT_FALSE(button("Copy the link").isEnabled());
+    EXPECT_TRUE(button(instead).getToggleState()) << "of the page, or of a file";
+    auto& address = dynamic_cast<juce::TextEditor&>(*find(*card, "Address of the page"));
+    address.setText("https://example.org/page/", true);
+    ASSERT_TRUE(runUntil([&] { return card->picture().isValid(); })) << "a code for a phone";
+    EXPECT_TRUE(card->value("Link").startsWith("https://example.org/page/#scene=")) << card->value("Link");
+    EXPECT_TRUE(button("Copy the link").isEnabled() && button("Copy the link").getToggleState());
+    EXPECT_TRUE(card->keyPressed(juce::KeyPress{juce::KeyPress::returnKey}));
+    ASSERT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
+    EXPECT_TRUE(window.model().trouble().startsWith("Copied a link of ")) << window.model().trouble();
+    window.share();
+    EXPECT_EQ(window.view().question()->value("Address of the page"), "https://example.org/page/") << "kept";
 }
 
 TEST(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing) {
@@ -748,6 +810,58 @@ TEST(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
     EXPECT_TRUE(model.isSilent()) << "where none is open";
 }
 
+TEST(Window, EscEndsADragAndAllIsAsBefore) {
+    TestFolder folder;
+    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    Hand hand{window};
+    auto& model = window.model();
+    auto& view = window.view().world().view();
+    auto& pane = window.view().world().drawing();
+    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 500'000'000; }));
+    model.setSlowness(0);
+    runFor(0.3);
+    const auto before = model.mix();
+    const auto edits = model.edits();
+    const auto escapeDuring = [&](juce::Point<float> from, int keys = 0) {
+        const int pressed = juce::ModifierKeys::leftButtonModifier | keys;
+        const auto at = hand.placeOf(view, from), to = at + juce::Point<float>{70.0f, 40.0f};
+        hand.move(at, keys);
+        hand.move(at, pressed);
+        for (int k = 1; k <= 5; ++k) hand.move(at + (to - at) * (0.2f * static_cast<float>(k)), pressed);
+        EXPECT_TRUE(window.view().world().isDragging());
+        hand.key(juce::KeyPress::escapeKey);
+        EXPECT_FALSE(window.view().world().isDragging());
+        hand.move(to + juce::Point<float>{9.0f, 9.0f}, pressed);
+        hand.release(to);
+        EXPECT_FALSE(model.isSilent()) << "nothing sounded";
+    };
+    const auto ball = view.placeOfBody("large rubber ball");
+    escapeDuring(ball);
+    EXPECT_EQ(model.edits(), edits) << "thrown";
+    escapeDuring(ball, juce::ModifierKeys::shiftModifier);
+    EXPECT_FALSE(view.isHolding());
+    EXPECT_FALSE(std::get<GripAction>(model.saved().log.takes.back().inputs.back().action).toMetres)
+        << "held";
+    escapeDuring(view.placeOfEnchanter(0));
+    EXPECT_EQ(layoutJson(model.mix().layout), layoutJson(before.layout)) << "moved";
+    const auto bodies = model.world().drawing().drawn().bodies.size();
+    for (const DrawTool tool : {DrawTool::ball, DrawTool::line, DrawTool::polygon}) {
+        pane.use(tool);
+        escapeDuring(view.placeOfShare({0.3, 0.7}));
+        EXPECT_EQ(model.world().drawing().drawn().bodies.size(), bodies) << static_cast<int>(tool);
+    }
+    pane.use(DrawTool::choose);
+    escapeDuring(ball);
+    EXPECT_EQ(model.world().drawing().find("large rubber ball")->positionMetres,
+              before.scene
+                  ->bodies[static_cast<std::size_t>(
+                      std::ranges::find(before.scene->bodies, "large rubber ball", &BodyDescription::name) -
+                      before.scene->bodies.begin())]
+                  .positionMetres);
+    hand.key(juce::KeyPress::escapeKey);
+    EXPECT_TRUE(model.isSilent()) << "where nothing is dragged";
+}
+
 TEST(Window, EscSilencesFromACardWhatGoesToAReceiverAlone) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", folder("esc.json"), folder("config")};
@@ -904,6 +1018,9 @@ TEST(Window, HeadphonesAreKept) {
         EXPECT_TRUE(again.model().device().choice().isHeadphones);
         EXPECT_EQ(again.model().output().channelMap(), (std::vector{0, 1})) << "two actuators";
         EXPECT_EQ(again.model().mix().levelDb, safeContactDb);
+        DeviceChoice actuators = again.model().device().choice();
+        EXPECT_EQ(actuators.beforeEars, (std::vector{0, 1, 2, 3})) << "of the session before";
+        runFor(0.7);
     }
     MixerWindow asked{fakeDrivers({&hands}), "Fake:hands", {}, folder("config")};
     EXPECT_FALSE(asked.model().device().choice().isHeadphones) << "a device that is asked for has actuators";
@@ -1195,10 +1312,12 @@ TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
         EXPECT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
         EXPECT_TRUE(window.isChanged());
         window.view().tabs().choose("Output");
-        auto* pads = dynamic_cast<juce::ComboBox*>(find(window.view(), "Game controller"));
-        pads->setSelectedItemIndex(1);
+        chooseIn(window.view(), "Device", "Game controller: none is plugged in");
+        window.model().messages().shown().act.run();
         ASSERT_TRUE(runUntil([&] { return window.view().question() != nullptr; }));
-        EXPECT_EQ(pads->getText(), "none") << "until the question is answered";
+        EXPECT_EQ(dynamic_cast<juce::ComboBox&>(*find(window.view(), "Device")).getText(),
+                  "No device: seen, not felt")
+            << "until the question is answered";
         window.view().question()->answer("Do not save");
         ASSERT_TRUE(runUntil([&] { return !window.model().device().choice().sinks.empty(); }));
         EXPECT_TRUE(window.isChanged()) << "its mix is in no file";
