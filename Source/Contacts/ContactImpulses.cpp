@@ -167,7 +167,7 @@ bool MomentumImpulses::isInPlane(const Row& row) const {
 }
 
 [[gnu::always_inline]] inline double MomentumImpulses::found(const Row& row) const {
-    const auto of = [&](std::int32_t which, Vector3 lever) {
+    const auto of = [&](std::int32_t which, Vector3 lever) __attribute__((always_inline)) {
         if (which == none) return 0.0;
         const Body& body = bodies_[static_cast<std::size_t>(which)];
         const auto &v = body.velocity, &w = body.spin;
@@ -180,7 +180,7 @@ bool MomentumImpulses::isInPlane(const Row& row) const {
 }
 
 [[gnu::always_inline]] inline void MomentumImpulses::push(const Row& row, double newtonSeconds) {
-    const auto on = [&](std::int32_t which, double impulse, Vector3 lever) {
+    const auto on = [&](std::int32_t which, double impulse, Vector3 lever) __attribute__((always_inline)) {
         if (which == none) return;
         Body& body = bodies_[static_cast<std::size_t>(which)];
         body.velocity[0] += impulse * body.perKg * static_cast<double>(row.way.x);

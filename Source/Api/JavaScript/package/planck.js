@@ -12,7 +12,7 @@ const listed = first => {
 const lookOf = contact => ({ contact, a: null, b: null, count: 0, at: 0, step: 0, isNew: false, next: null, nextPushed: null }); // `at`: of normal, alpha, and six numbers for each of two points
 
 class PlanckHaptics extends Haptics {
-    #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #step = 0; #looks = new Map(); #numbers = new Float64Array(1500); #count = 0; #first = lookOf(null); #looked = this.#first; #pushed = this.#first; #manifold = null; #spot = contactOf();
+    #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #step = 0; #looks = new Map(); #numbers = []; #count = 0; #first = lookOf(null); #looked = this.#first; #pushed = this.#first; #manifold = null; #spot = contactOf();
 
     constructor(physvib, engine, options) {
         const unit = options.metresPerUnit ?? 1;
@@ -31,7 +31,7 @@ class PlanckHaptics extends Haptics {
         }, options);
         this.#engine = engine;
         this.#handlers = {
-            'pre-step': seconds => this.#start(seconds), 'post-step': () => this.#end(), 'begin-contact': contact => { this.#lookOf(contact).isNew = true; }, 'end-contact': contact => this.#forget(contact),
+            'pre-step': seconds => this.#start(seconds), 'post-step': () => this.#end(), 'begin-contact': contact => { this.#lookOf(contact).isNew = true; }, 'end-contact': contact => { this.#lookOf(contact).contact = null; this.#looks.delete(contact); },
             'pre-solve': contact => this.guarded(this.#look, false, contact), 'post-solve': (contact, impulse) => this.guarded(this.#push, false, contact, impulse),
         };
         for (const [name, handler] of Object.entries(this.#handlers)) engine.on(name, handler);
@@ -84,14 +84,8 @@ class PlanckHaptics extends Haptics {
         const { normal, points, separations } = this.#manifold = contact.getWorldManifold(this.#manifold), spot = this.#spot;
         look.step = this.#step;
         look.count = contact.getManifold().pointCount;
-        if (this.#count + 15 > this.#numbers.length) {
-            const larger = new Float64Array(2 * this.#numbers.length);
-            larger.set(this.#numbers);
-            this.#numbers = larger;
-        }
         const numbers = this.#numbers;
         let to = look.at = this.#count;
-        this.#count += 15;
         numbers[to++] = normal.x;
         numbers[to++] = normal.y;
         numbers[to++] = alpha;
@@ -105,6 +99,7 @@ class PlanckHaptics extends Haptics {
             numbers[to++] = spot.alongB;
             numbers[to++] = (separations[i] ?? 0) * unit;
         }
+        this.#count = to;
     };
     #knownOf(known, body) { return known?.body === body && !known.isOut ? known : this.know(body); }
     // Of a contact, as long as it lasts. Planck goes through them in the order of the step before, but for few.
@@ -112,11 +107,6 @@ class PlanckHaptics extends Haptics {
         let look = this.#looks.get(contact);
         if (look === undefined) this.#looks.set(contact, look = lookOf(contact));
         return look;
-    }
-    #forget(contact) {
-        const look = this.#looks.get(contact);
-        if (look) look.contact = null;
-        this.#looks.delete(contact);
     }
 
     #push = (contact, impulse) => {
