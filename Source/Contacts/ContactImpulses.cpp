@@ -167,29 +167,24 @@ bool MomentumImpulses::isInPlane(const Row& row) const {
 }
 
 [[gnu::always_inline]] inline double MomentumImpulses::found(const Row& row) const {
-    const auto of = [&](std::int32_t which, Vector3 lever) {
+    const auto of = [&](std::int32_t which, Vector3 lever) __attribute__((always_inline)) {
         if (which == none) return 0.0;
         const Body& body = bodies_[static_cast<std::size_t>(which)];
         const auto &v = body.velocity, &w = body.spin;
-        const double inPlane = v[0] * static_cast<double>(row.way.x) + v[1] * static_cast<double>(row.way.y),
-                     turned = w[2] * static_cast<double>(lever.z);
-        if (isInPlane_) return inPlane + turned;
-        return inPlane + v[2] * static_cast<double>(row.way.z) +
-               (w[0] * static_cast<double>(lever.x) + w[1] * static_cast<double>(lever.y) + turned);
+        return v[0] * static_cast<double>(row.way.x) + v[1] * static_cast<double>(row.way.y) +
+               v[2] * static_cast<double>(row.way.z) +
+               (w[0] * static_cast<double>(lever.x) + w[1] * static_cast<double>(lever.y) +
+                w[2] * static_cast<double>(lever.z));
     };
     return of(row.b, row.leverB) - of(row.a, row.leverA);
 }
 
 [[gnu::always_inline]] inline void MomentumImpulses::push(const Row& row, double newtonSeconds) {
-    const auto on = [&](std::int32_t which, double impulse, Vector3 lever) {
+    const auto on = [&](std::int32_t which, double impulse, Vector3 lever) __attribute__((always_inline)) {
         if (which == none) return;
         Body& body = bodies_[static_cast<std::size_t>(which)];
         body.velocity[0] += impulse * body.perKg * static_cast<double>(row.way.x);
         body.velocity[1] += impulse * body.perKg * static_cast<double>(row.way.y);
-        if (isInPlane_) {
-            body.spin[2] += impulse * body.turning.zz * static_cast<double>(lever.z);
-            return;
-        }
         body.velocity[2] += impulse * body.perKg * static_cast<double>(row.way.z);
         const std::array<double, 3> spin = body.turning.spin(impulse, lever);
         for (std::size_t axis = 0; axis < 3; ++axis) body.spin[axis] += spin[axis];
@@ -262,23 +257,94 @@ Vector3 MomentumImpulses::friction(std::size_t point) const {
     return sum;
 }
 
-[[gnu::always_inline]] inline double MomentumImpulses::relax(Row& row) {
-    if (!(row.effectiveKg > 0.0)) return 0.0;
-    const double before = row.newtonSeconds;
-    row.newtonSeconds = std::clamp(before + (row.change - found(row)) * row.effectiveKg, row.least, row.most);
-    push(row, row.newtonSeconds - before);
-    return std::abs(row.newtonSeconds - before);
+// Rows of one body stay in their order, and so give the same bits; between them come those of others, so that
+// a processor need not wait for a row's end before it begins the next. Those that stay 0 are left out.
+void MomentumImpulses::arrange() {
+    ends_.assign(1, 0);
+    for (Body& body : bodies_) body.turns = 0;
+    std::erase_if(swept_, [this](std::int32_t at) {
+        Row& row = rows_[static_cast<std::size_t>(at)];
+        const bool isAcross = row.way.x == 0.0F && row.way.y == 0.0F && row.change == 0.0;
+        if (!(row.effectiveKg > 0.0) || isAcross) return true;
+        row.turn = 0;
+        for (const std::int32_t body : {row.a, row.b})
+            if (body != none) row.turn = std::max(row.turn, bodies_[static_cast<std::size_t>(body)].turns);
+        for (const std::int32_t body : {row.a, row.b})
+            if (body != none) bodies_[static_cast<std::size_t>(body)].turns = row.turn + 1;
+        ends_.resize(std::max(ends_.size(), row.turn + 2));
+        ++ends_[row.turn + 1];
+        return false;
+    });
+    for (std::size_t i = 1; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
+    unarranged_.swap(swept_);
+    swept_.resize(unarranged_.size());
+    for (const std::int32_t at : unarranged_) swept_[ends_[rows_[static_cast<std::size_t>(at)].turn]++] = at;
 }
 
 void MomentumImpulses::sweep() {
-    for (int sweep = 0; sweep < mostMomentumSweeps; ++sweep) {
-        double change = 0.0, strongest = 0.0;
+    if (isInPlane_) return sweepInPlane();
+    double change = 1.0, strongest = 0.0;
+    for (int sweep = 0; sweep < mostMomentumSweeps && !(change <= enough * strongest); ++sweep) {
+        change = strongest = 0.0;
         for (const std::int32_t at : swept_) {
             Row& row = rows_[static_cast<std::size_t>(at)];
-            change = std::max(change, relax(row));
+            const double before = row.newtonSeconds;
+            row.newtonSeconds =
+                std::clamp(before + (row.change - found(row)) * row.effectiveKg, row.least, row.most);
+            if (row.newtonSeconds != before) push(row, row.newtonSeconds - before);
+            change = std::max(change, std::abs(row.newtonSeconds - before));
             strongest = std::max(strongest, std::abs(row.newtonSeconds));
         }
-        if (change <= enough * strongest) return;
+    }
+}
+
+// The same of what the plane has alone, side by side in memory. What is immovable is a last body that nothing
+// moves.
+void MomentumImpulses::sweepInPlane() {
+    arrange();
+    planeBodies_.clear();
+    for (const Body& body : bodies_)
+        planeBodies_.push_back(
+            {body.velocity[0], body.velocity[1], body.spin[2], body.perKg, body.turning.zz});
+    planeBodies_.push_back({});
+    planeRows_.clear();
+    const auto bodyOf = [this](std::int32_t body) {
+        return planeBodies_.data() + (body == none ? bodies_.size() : static_cast<std::size_t>(body));
+    };
+    for (const std::int32_t at : swept_) {
+        const Row& row = rows_[static_cast<std::size_t>(at)];
+        planeRows_.push_back({bodyOf(row.a), bodyOf(row.b), static_cast<double>(row.way.x),
+                              static_cast<double>(row.way.y), static_cast<double>(row.leverA.z),
+                              static_cast<double>(row.leverB.z), row.change, row.effectiveKg,
+                              row.newtonSeconds, row.least, row.most});
+    }
+    double change = 1.0, strongest = 0.0;
+    for (int sweep = 0; sweep < mostMomentumSweeps && !(change <= enough * strongest); ++sweep) {
+        change = strongest = 0.0;
+        for (PlaneRow& row : planeRows_) {
+            PlaneBody &a = *row.a, &b = *row.b;
+            const double found = (b.x * row.x + b.y * row.y + b.spin * row.leverB) -
+                                 (a.x * row.x + a.y * row.y + a.spin * row.leverA);
+            const double next =
+                std::clamp(row.newtonSeconds + (row.change - found) * row.effectiveKg, row.least, row.most);
+            const double push = next - row.newtonSeconds, onA = push * a.perKg, onB = push * b.perKg;
+            strongest = std::max(strongest, std::abs(next));
+            if (push == 0.0) continue;
+            change = std::max(change, std::abs(push));
+            row.newtonSeconds = next;
+            a.x -= onA * row.x;
+            a.y -= onA * row.y;
+            a.spin -= push * a.turning * row.leverA;
+            b.x += onB * row.x;
+            b.y += onB * row.y;
+            b.spin += push * b.turning * row.leverB;
+        }
+    }
+    for (std::size_t i = 0; i < swept_.size(); ++i)
+        rows_[static_cast<std::size_t>(swept_[i])].newtonSeconds = planeRows_[i].newtonSeconds;
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        bodies_[i].velocity = {planeBodies_[i].x, planeBodies_[i].y, 0.0};
+        bodies_[i].spin[2] = planeBodies_[i].spin;
     }
 }
 

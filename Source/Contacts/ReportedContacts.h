@@ -198,13 +198,22 @@ private:
         // changes by the impulses found so far, m/s and rad/s
         std::array<double, 3> velocity{}, spin{};
         InverseInertia turning;
-        int from = 0; // 1: struck; 2 and 3: its neighbours, and theirs
+        int from = 0;          // 1: struck; 2 and 3: its neighbours, and theirs
+        std::size_t turns = 0; // so many of its rows, and of their neighbours', come one after another
     };
     struct Row {                     // an impulse one way
         std::int32_t a, b;           // bodies, or none: immovable
         Vector3 way, leverA, leverB; // on B; m
         double change = 0.0; // m/s by which the contact has changed the speed of A along it, seen from B
         double effectiveKg = 0.0, newtonSeconds = 0.0, least = 0.0, most = HUGE_VAL;
+        std::size_t turn = 0; // rows of one turn have no body in common
+    };
+    struct PlaneBody { // of a body, and of a row, what counts in the plane
+        double x, y, spin, perKg, turning;
+    };
+    struct PlaneRow {
+        PlaneBody *a, *b;
+        double x, y, leverA, leverB, change, effectiveKg, newtonSeconds, least, most;
     };
     struct Point {
         std::int32_t idA, idB, a, b; // as of a row
@@ -219,8 +228,9 @@ private:
     bool isInPlane(const Row& row) const;
     double found(const Row& row) const; // of its change
     void push(const Row& row, double newtonSeconds);
-    double relax(Row& row);
+    void arrange();
     void sweep();
+    void sweepInPlane();
 
     bool isInPlane_ = true; // all points: normals along x and y, spin about z alone; what is 0 there is left
                             // out
@@ -228,7 +238,10 @@ private:
     IntegerMap bodyOf_; // by ReportedBodies::idOf()
     std::vector<Point> points_;
     std::vector<Row> rows_; // along the points' normals, then across
-    std::vector<std::int32_t> swept_;
+    std::vector<std::int32_t> swept_, unarranged_;
+    std::vector<std::size_t> ends_; // of the rows of each turn
+    std::vector<PlaneBody> planeBodies_;
+    std::vector<PlaneRow> planeRows_;
 };
 
 // Converts the lasting contacts (rolling, sliding) that an engine reports per step to tracked points.

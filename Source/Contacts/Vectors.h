@@ -115,7 +115,7 @@ struct InverseInertia {
     }
 
     /// Change of spin, rad/s, by `newtonSeconds` that act with this lever (arm x direction), m.
-    std::array<double, 3> spin(double newtonSeconds, Vector3 lever) const noexcept {
+    [[gnu::always_inline]] std::array<double, 3> spin(double newtonSeconds, Vector3 lever) const noexcept {
         const auto x = static_cast<double>(lever.x), y = static_cast<double>(lever.y),
                    z = static_cast<double>(lever.z), s = newtonSeconds;
         return {s * xx * x + s * xy * y + s * xz * z, s * xy * x + s * yy * y + s * yz * z,

@@ -44,10 +44,10 @@ export class Haptics {
 
     /** Work of the attachment's own. What it throws ends haptics, is told once, and does not reach the game. `isCalled`: the game has called it, so a wrong argument is
      * thrown; and so is the use of what was freed. */
-    guarded(work, isCalled = false) {
+    guarded(work, isCalled = false, ...given) {
         if (this.error || (this.#isFree && !isCalled)) return undefined;
         try {
-            return work();
+            return work(...given);
         } catch (error) {
             if (isCalled && (this.#isFree || error.code === wrongArgument)) throw error;
             try { this.detach?.(); } catch { /* the engine is in no state for it */ }

@@ -83,26 +83,22 @@ class MatterHaptics extends Haptics {
         for (const known of this.each()) this.#moveAs(known, 0);
     }
 
-    // Pairs outlive a world that was cleared.
-    #meets({ isActive, isSensor, collision: { parentA, parentB } }) { return isActive && !isSensor && this.#isThere(parentA) && this.#isThere(parentB); }
     #end() {
         const { list } = this.#engine.pairs, meeting = this.#meeting;
         let count = 0;
         for (const pair of list) {
-            if (!this.#meets(pair)) continue;
+            const { isActive, isSensor, collision: { parentA, parentB } } = pair;
+            if (!isActive || isSensor || !this.#isThere(parentA) || !this.#isThere(parentB)) continue; // pairs outlive a world that was cleared
             meeting[count++] = pair;
-            this.#knownOf(pair.collision.parentA);
-            this.#knownOf(pair.collision.parentB);
+            meeting[count++] = this.#knownOf(parentA);
+            meeting[count++] = this.#knownOf(parentB);
         }
         for (const known of this.each()) {
             if (known.isStatic) continue;
             const { vx, vy, spin } = this.#stateOf(known.body);
             this.journal.moved(known.id, vx, vy, spin);
         }
-        for (let i = 0; i < count; ++i) {
-            const pair = meeting[i], a = this.#knownOf(pair.collision.parentA), b = this.#knownOf(pair.collision.parentB);
-            if (!(a.isStatic && b.isStatic)) this.#touch(pair, a, b);
-        }
+        for (let i = 0; i < count; i += 3) if (!(meeting[i + 1].isStatic && meeting[i + 2].isStatic)) this.#touch(meeting[i], meeting[i + 1], meeting[i + 2]);
         meeting.length = count;
     }
 

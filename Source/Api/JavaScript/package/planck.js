@@ -9,8 +9,10 @@ const listed = first => {
     return all;
 };
 
+const lookOf = contact => ({ contact, a: null, b: null, count: 0, at: 0, step: 0, isNew: false, next: null, nextPushed: null }); // `at`: of normal, alpha, and six numbers for each of two points
+
 class PlanckHaptics extends Haptics {
-    #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #step = 0; #looks = new Map(); #manifold = null; #spot = contactOf();
+    #engine; #handlers; #seconds = 0; #gravity = { x: 0, y: 0 }; #isStepping = false; #step = 0; #looks = new Map(); #numbers = []; #count = 0; #first = lookOf(null); #looked = this.#first; #pushed = this.#first; #manifold = null; #spot = contactOf();
 
     constructor(physvib, engine, options) {
         const unit = options.metresPerUnit ?? 1;
@@ -29,8 +31,8 @@ class PlanckHaptics extends Haptics {
         }, options);
         this.#engine = engine;
         this.#handlers = {
-            'pre-step': seconds => this.#start(seconds), 'post-step': () => this.#end(), 'begin-contact': contact => { this.#lookOf(contact).isNew = true; }, 'end-contact': contact => this.#looks.delete(contact),
-            'pre-solve': contact => this.guarded(() => this.#look(contact)), 'post-solve': (contact, impulse) => this.guarded(() => this.#push(contact, impulse)),
+            'pre-step': seconds => this.#start(seconds), 'post-step': () => this.#end(), 'begin-contact': contact => { this.#lookOf(contact).isNew = true; }, 'end-contact': contact => { this.#lookOf(contact).contact = null; this.#looks.delete(contact); },
+            'pre-solve': contact => this.guarded(this.#look, false, contact), 'post-solve': (contact, impulse) => this.guarded(this.#push, false, contact, impulse),
         };
         for (const [name, handler] of Object.entries(this.#handlers)) engine.on(name, handler);
     }
@@ -51,6 +53,8 @@ class PlanckHaptics extends Haptics {
         this.begin(seconds, Math.hypot(x, y) * unit);
         this.#isStepping = true;
         ++this.#step;
+        this.#count = 0;
+        this.#looked = this.#pushed = this.#first;
         for (const known of this.each()) this.#observe(known, known.isRound, false);
     }
     #end() {
@@ -70,22 +74,22 @@ class PlanckHaptics extends Haptics {
     }
 
     // Continuous collision looks again, within the step: gravity is in the speeds then.
-    #look(contact) {
+    #look = contact => {
         const fixtureA = contact.getFixtureA(), fixtureB = contact.getFixtureB(), bodyA = fixtureA.getBody(), bodyB = fixtureB.getBody(), unit = this.metresPerUnit;
         if (fixtureA.isSensor() || fixtureB.isSensor()) return;
-        const alpha = Math.max(bodyA.m_sweep?.alpha0 ?? 0, bodyB.m_sweep?.alpha0 ?? 0), a = this.know(bodyA), b = this.know(bodyB);
+        const { next } = this.#looked, look = this.#looked = this.#looked.next = next?.contact === contact ? next : this.#lookOf(contact);
+        const alpha = Math.max(bodyA.m_sweep?.alpha0 ?? 0, bodyB.m_sweep?.alpha0 ?? 0), a = look.a = this.#knownOf(look.a, bodyA), b = look.b = this.#knownOf(look.b, bodyB);
         this.#observe(a, fixtureA.getType() === 'circle', alpha === 0);
         this.#observe(b, fixtureB.getType() === 'circle', alpha === 0);
-        const { normal, points, separations } = this.#manifold = contact.getWorldManifold(this.#manifold), look = this.#lookOf(contact);
+        const { normal, points, separations } = this.#manifold = contact.getWorldManifold(this.#manifold), spot = this.#spot;
         look.step = this.#step;
-        look.a = a;
-        look.b = b;
         look.count = contact.getManifold().pointCount;
-        const numbers = look.numbers, spot = this.#spot;
-        numbers[0] = normal.x;
-        numbers[1] = normal.y;
-        numbers[2] = alpha;
-        for (let i = 0, to = 3; i < look.count; ++i) {
+        const numbers = this.#numbers;
+        let to = look.at = this.#count;
+        numbers[to++] = normal.x;
+        numbers[to++] = normal.y;
+        numbers[to++] = alpha;
+        for (let i = 0; i < look.count; ++i) {
             const x = points[i].x * unit, y = points[i].y * unit;
             motionAt(a, b, x, y, normal.x, normal.y, spot);
             numbers[to++] = x;
@@ -95,18 +99,21 @@ class PlanckHaptics extends Haptics {
             numbers[to++] = spot.alongB;
             numbers[to++] = (separations[i] ?? 0) * unit;
         }
-    }
-    // Of a contact, as long as it lasts.
+        this.#count = to;
+    };
+    #knownOf(known, body) { return known?.body === body && !known.isOut ? known : this.know(body); }
+    // Of a contact, as long as it lasts. Planck goes through them in the order of the step before, but for few.
     #lookOf(contact) {
         let look = this.#looks.get(contact);
-        if (look === undefined) this.#looks.set(contact, look = { a: null, b: null, count: 0, step: 0, isNew: false, numbers: new Float64Array(15) }); // normal, alpha, and six numbers for each of two points
+        if (look === undefined) this.#looks.set(contact, look = lookOf(contact));
         return look;
     }
 
-    #push(contact, { normalImpulses }) {
-        const look = this.#looks.get(contact);
+    #push = (contact, impulse) => {
+        const { nextPushed: next } = this.#pushed, look = next?.contact === contact ? next : this.#looks.get(contact);
         if (look?.step !== this.#step || !this.#isStepping) return;
-        const { a, b, count, numbers } = look, nx = numbers[0], ny = numbers[1], alpha = numbers[2], unit = this.metresPerUnit, spot = this.#spot;
+        this.#pushed = this.#pushed.nextPushed = look;
+        const { a, b, count, at } = look, numbers = this.#numbers, nx = numbers[at], ny = numbers[at + 1], alpha = numbers[at + 2], unit = this.metresPerUnit, spot = this.#spot;
         const pull = this.#seconds * (this.#gravity.x * nx + this.#gravity.y * ny), isOne = a.isStatic !== b.isStatic;
         const load = look.isNew && alpha === 0 && isOne ? Math.max(0, a.isStatic ? -pull * b.massKg * b.gravityScale : pull * a.massKg * a.gravityScale) : 0;
         spot.normalX = nx;
@@ -114,7 +121,7 @@ class PlanckHaptics extends Haptics {
         spot.gapFraction = alpha > 0 ? leftOut : 0;
         spot.restitution = Math.min(1, Math.max(0, contact.getRestitution()));
         spot.point = a.isRound || b.isRound ? 0 : byPlace;
-        for (let i = 0, from = 3; i < count; ++i) {
+        for (let i = 0, from = at + 3; i < count; ++i) {
             spot.x = numbers[from++];
             spot.y = numbers[from++];
             spot.approach = numbers[from++];
@@ -124,11 +131,11 @@ class PlanckHaptics extends Haptics {
             // Continuous collision stops bodies where they overlap by a little: they met before.
             spot.fraction = alpha > 0 ? Math.max(0, Math.min(1, alpha + (gap < 0 && spot.approach > 0 ? gap / spot.approach / this.#seconds : 0))) : leftOut;
             spot.gap = alpha > 0 ? leftOut : gap;
-            spot.impulse = normalImpulses[i] * unit - load / count;
+            spot.impulse = (contact.v_points?.[i].normalImpulse ?? impulse.normalImpulses[i]) * unit - load / count; // its own list is made anew at each look
             this.journal.touch(a.id, b.id, spot);
         }
         look.isNew = false;
-    }
+    };
 }
 
 /** `world`: Planck's. A body is felt as a whole, whichever of its fixtures touches. */

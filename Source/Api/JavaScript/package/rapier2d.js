@@ -18,9 +18,18 @@ const keyOf = (a, b) => (a < 2 ** 15 && b < 2 ** 15 ? a << 15 | b : 2 ** 53 - 1 
 const combined = [(a, b) => (a + b) / 2, Math.min, (a, b) => a * b, Math.max];
 const bounceOf = (a, b) => combined[Math.max(a.restitutionCombineRule(), b.restitutionCombineRule())](a.restitution(), b.restitution());
 
+// Rapier makes an object of each pair and of each manifold that is looked at, and has the collector watch it, which costs more than what they tell. While we look, there is
+// one of each.
+const shared = type => {
+    const { __wrap } = type, only = Object.create(type.prototype);
+    only.__destroy_into_raw = () => { const at = only.__wbg_ptr; only.__wbg_ptr = 0; return at; };
+    const share = at => { only.__wbg_ptr = at; return only; };
+    return is => { type.__wrap = is ? share : __wrap; };
+};
+
 /** What both have; physvib/rapier3d says otherwise what space changes. */
 export class RapierHaptics extends Haptics {
-    #engine; #end; #touching = new Set(); #was = new Set(); #kept = new Map(); #pass = 0; #seconds = 0; #fresh = null; #one = null; #other = null; #pairs = null; #slack = 0; #lastSeconds = 0; #v = undefined; #normal = undefined; #gravity = undefined;
+    #engine; #end; #touching = new Set(); #was = new Set(); #kept = new Map(); #list = []; #met = 0; #turn = 0; #share = null; #pass = 0; #seconds = 0; #fresh = null; #one = null; #other = null; #pairs = null; #slack = 0; #lastSeconds = 0; #v = undefined; #normal = undefined; #gravity = undefined;
     /** Of a contact as it is looked at. */
     spot = Object.assign(contactOf(), { soft: 1 });
 
@@ -58,6 +67,7 @@ export class RapierHaptics extends Haptics {
         this.#gravity = gravity;
         this.#slack = 0.05 + pull * seconds;
         ++this.#pass;
+        ++this.#turn;
         this.#engine.propagateModifiedBodyPositionsToColliders?.(); // as its step does at first: colliders are where the game has put their bodies
         this.#rest();
         this.begin(seconds, pull);
@@ -70,6 +80,7 @@ export class RapierHaptics extends Haptics {
         else this.observeStill(known, known.body.translation());
     }
     #after(seconds) {
+        ++this.#turn;
         for (const known of this.eachThere()) {
             if (known.isStatic) continue;
             if (known.isAtRest && !known.body.isSleeping()) known.isAtRest = false; // something has woken it
@@ -79,7 +90,8 @@ export class RapierHaptics extends Haptics {
         [this.#was, this.#touching] = [this.#touching, this.#was];
         this.#touching.clear();
         this.#gravity = this.#engine.gravity;
-        this.#eachPair();
+        this.#share?.forEach(share => share(true));
+        try { this.#eachPair(); } finally { this.#share?.forEach(share => share(false)); }
         const sub = seconds / (this.#engine.numSolverIterations ?? 4);
         for (const known of this.eachThere()) if (!known.isStatic && !known.isAtRest && known.stop) this.ended(known, seconds, sub); // for the next step's contacts
         this.#lastSeconds = seconds;
@@ -90,8 +102,13 @@ export class RapierHaptics extends Haptics {
     // told those again, or told others.
     #keptOf(collider) {
         let kept = this.#kept.get(collider);
-        if (kept === undefined) this.#kept.set(collider, kept = { collider, known: null, at: undefined, turned: undefined, radius: 0.5, reach: 0.5, posed: 0, seen: 0, told: 0, live: 0, contacts: null, pairs: [], touching: [] });
+        if (kept === undefined) this.#kept.set(collider, kept = { collider, known: null, at: undefined, turned: undefined, radius: 0.5, reach: 0.5, posed: 0, seen: 0, told: 0, live: 0, contacts: null, pairs: [], touching: [], others: [] });
         return kept;
+    }
+    // The same of one that is likely at that place of a list: they come in the order of the step before.
+    #keptAt(list, i, collider) {
+        const likely = list[i];
+        return likely?.collider === collider ? likely : list[i] = this.#keptOf(collider);
     }
     #knownOf(kept) {
         if (kept.known === null || kept.known.isOut) kept.known = this.know(kept.collider);
@@ -102,7 +119,7 @@ export class RapierHaptics extends Haptics {
         const engine = this.#engine, pass = this.#pass;
         let seen = 0;
         engine.forEachCollider(one => {
-            const kept = this.#keptOf(one);
+            const kept = this.#keptAt(this.#list, seen, one);
             kept.seen = pass;
             ++seen;
             if (!one.parent()?.isDynamic()) return;
@@ -119,21 +136,31 @@ export class RapierHaptics extends Haptics {
             this.#one = kept;
             this.#pairs = isAtRest ? [] : null;
             this.#fresh = isAtRest ? [] : null;
+            this.#met = 0;
             engine.contactPairsWith(one, this.#meets);
+            if (kept.others.length > this.#met) kept.others.length = this.#met;
             kept.live = pass;
             if (isAtRest) Object.assign(kept, { contacts: this.journal.copy(place), pairs: this.#pairs, touching: this.#fresh });
         });
         if (seen < this.#kept.size) for (const [collider, kept] of this.#kept) if (kept.seen !== pass) this.#kept.delete(collider);
+        this.#list.length = seen;
     }
     #meets = other => {
-        const one = this.#one, kept = this.#keptOf(other);
+        const one = this.#one, kept = this.#keptAt(one.others, this.#met++, other);
         if (kept.live === this.#pass || (kept.told === this.#pass && kept.pairs.includes(one)) || other.isSensor()) return;
         this.#pairs?.push(kept);
         const a = this.#knownOf(one), b = this.#knownOf(kept);
         if (a === b || this.#areApart(one, kept)) return;
         this.#other = kept;
+        this.#share ??= this.#sharedOf(one.collider, other);
         this.#engine.contactPair(one.collider, other, this.#look);
     };
+    #sharedOf(one, other) {
+        const pair = this.#engine.narrowPhase.raw?.contact_pair?.(one.handle, other.handle), manifold = pair?.contactManifold(0), types = [pair, manifold].map(raw => raw?.constructor);
+        manifold?.free();
+        pair?.free();
+        return manifold ? types.filter(type => type.__wrap).map(shared) : null;
+    }
     // Of two balls the distance says whether Rapier has looked at them closely: asking it is what costs.
     #areApart(one, other) {
         return one.radius > 0 && other.radius > 0 && one.posed === this.#pass && other.posed === this.#pass && this.between(one.at, other.at) > one.radius + other.radius + one.reach + other.reach;
@@ -153,8 +180,9 @@ export class RapierHaptics extends Haptics {
     // A body that touches for the first time is known before the step that it touches in.
     #meetAll() {
         const { integrationParameters } = this.#engine, near = integrationParameters.predictionDistance ?? integrationParameters.normalizedPredictionDistance * integrationParameters.lengthUnit, unit = this.metresPerUnit;
+        let seen = 0;
         this.#engine.forEachCollider(collider => {
-            const kept = this.#keptOf(collider), owner = ownerOf(collider), known = this.#sensed(kept, owner);
+            const kept = this.#keptAt(this.#list, seen++, collider), owner = ownerOf(collider), known = this.#sensed(kept, owner);
             if (known?.isAtRest) {
                 if (kept.posed > 0) kept.posed = this.#pass;
                 return;
@@ -175,11 +203,18 @@ export class RapierHaptics extends Haptics {
         known.posed = (known.posed ?? 0) + 1;
         kept.posed = this.#pass;
         kept.at = collider.translation(kept.at);
-        kept.turned = collider.rotation(kept.turned);
+        if (!known.isRound) kept.turned = collider.rotation(kept.turned);
         kept.radius = known.isRound ? collider.radius() : 0;
     }
 
-    #fall(known) { return known.isStatic || known.isAtRest || known.body.isSleeping() ? 0 : known.gravityScale; }
+    // Once before the step, and once behind it: a body is in many contacts.
+    #fall(known) {
+        if (known.step !== this.#turn) {
+            known.step = this.#turn;
+            known.fall = known.isStatic || known.isAtRest || known.body.isSleeping() ? 0 : known.gravityScale;
+        }
+        return known.fall;
+    }
 
     /** As this step will have it: Rapier derives that of what is put by its place within the step. */
     velocityOf({ isStatic, body }) {
@@ -204,16 +239,16 @@ export class RapierHaptics extends Haptics {
         if (!known.isStatic) startOf(known.stop ??= stopOf(), known.x, known.y, 0, known.vx, known.vy, 0, vx, vy, 0);
         this.journal.move(known.id, known.x, known.y, vx, vy, known.spin);
     }
-    ended({ stop, body }, seconds, subSeconds) {
-        const unit = this.metresPerUnit, at = this.#at = body.worldCom(this.#at), v = this.#w = body.linvel(this.#w);
-        endOf(stop, at.x * unit, at.y * unit, 0, v.x * unit, v.y * unit, 0, seconds, subSeconds);
+    ended({ stop, body, endX, endY }, seconds, subSeconds) {
+        const unit = this.metresPerUnit, at = this.#at = body.worldCom(this.#at);
+        endOf(stop, at.x * unit, at.y * unit, 0, endX, endY, 0, seconds, subSeconds);
     }
     /** What a body has lost at a contact, along its normal. */
     lostAt({ stop, x, y, spin }, spot) { return stop ? stop.toX * spot.normalX + stop.toY * spot.normalY + stop.turn * spin * ((spot.x - x) * spot.normalY - (spot.y - y) * spot.normalX) : 0; }
     observeAgain(known) { this.journal.move(known.id, known.x, known.y, known.vx, known.vy, known.spin); }
     movedAgain(known) { this.journal.moved(known.id, known.vx, known.vy, known.spin); }
     observeStill(known, { x, y }) { this.move(known, x * this.metresPerUnit, y * this.metresPerUnit, 0, 0, 0); }
-    moved(known, { x, y }, spin) { this.journal.moved(known.id, x * this.metresPerUnit, y * this.metresPerUnit, spin); }
+    moved(known, { x, y }, spin) { this.journal.moved(known.id, known.endX = x * this.metresPerUnit, known.endY = y * this.metresPerUnit, spin); }
     #places = [{ x: 0.5, y: 0.5 }, { x: 0.5, y: 0.5 }]; #local = undefined;
     /** The point of a collider at its pose, k of two; the normal m goes out of the first. */
     #onSurface(k, { at, turned, radius }, m, manifold, i) {
