@@ -272,10 +272,13 @@ std::vector<Sentence> sentences() {
         {"one participant, or no column participant: intervals are over trials", of(fits, 1), of(fits, 3)},
         {"no response; trials left out for that: ", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
         {": 1 of 2 trials, a training", of(grid, 3, halfATraining, true), of(grid, 3)},
-        {"staircase 1 ended at 6 trials with ", of(cut, 3, {}, true), of(interleaved, 3, {}, true)},
-        {"thresholds of staircases: means of the later half of the reversals that a trial followed, so "
+        {"reversals, for which nothing is left out", of(cut, 3, {}, true), of(interleaved, 3, {}, true)},
+        {"thresholds of staircases: means of the later half of the reversals of the level that a trial "
+         "followed, so "
          "without "
-         "one that ended the staircase (of an odd number also the middle one); of several staircases their "
+         "one that ended the staircase or whose level a bound held (of an odd number also the middle one); "
+         "of "
+         "several staircases their "
          "mean, and none where one of them has none",
          of(steps, 3), of(quest, 3)},
         {"participant P2 did not finish main in ", of(interleaved, 3, stopsEarly, true),
@@ -338,12 +341,32 @@ std::set<std::string> wordsOf(const Protocol& protocol) {
 TEST(ReportSentences, AGroupChangesTheNameOfAPlannedTest) {
     const auto trials = readReportTrials({{"P1.csv", fileOf(points(), 1, {})}}, {}, {}).value;
     const auto withGroup =
-        comparedWithPlan("# physvib 1 plan=study hash=" + trials.common("hash") +
-                             " participants=1\n- test: Friedman's test of x by a, b\n",
-                         "plan", trials, {"Friedman's and Kruskal and Wallis' test of x by a, b, group"})
+        comparedWithPlan(
+            "# physvib 1 plan=study hash=" + trials.common("hash") +
+                " participants=1\n- test: Friedman's test of x by a, b\n",
+            "plan", trials,
+            std::vector<std::string>{"Friedman's and Kruskal and Wallis' test of x by a, b, group"})
             .value;
     EXPECT_EQ(withGroup.back(), "Planned as Friedman's test of x by a, b, done as Friedman's and Kruskal and "
                                 "Wallis' test of x by a, b, group");
+}
+
+TEST(ReportSentences, APlanWithoutTestsIsKeptByAReportWithoutTests) {
+    const auto trials = readReportTrials({{"P1.csv", fileOf(points(), 1, {})}}, {}, {}).value;
+    const auto last = [&](const std::string& participants,
+                          const std::optional<std::vector<std::string>>& done) {
+        return comparedWithPlan("# physvib 1 plan=study hash=" + trials.common("hash") +
+                                    " participants=" + participants + "\nnone\n",
+                                "plan", trials, done)
+            .value.back();
+    };
+    const std::vector<std::string> none;
+    EXPECT_EQ(last("1", none),
+              "Protocol and number of participants are as planned; plan and report make no test.");
+    EXPECT_EQ(last("2", none), "Plan and report make no test.");
+    EXPECT_EQ(last("1", std::vector<std::string>{"a"}), "Not planned: a");
+    EXPECT_EQ(last("1", {}),
+              "The tests are not compared: R did not run, now or when it was planned; the scripts can be.");
 }
 
 TEST(ReportSentences, StaircasesThatRanOutOfTimeAreNoChoices) {

@@ -77,8 +77,10 @@ TEST_F(ReportThresholds, PlansHaveTheirMeasuresAndTheTestsOfTimeThatRanOut) {
                 << plan;
         EXPECT_NE(
             plan.find("\nMeasures\n- thresholds of staircases: means of the later half of the reversals "
-                      "that a trial followed, so without one that ended the staircase"),
+                      "of the level that a trial followed, so without one that ended the staircase"),
             std::string::npos);
+        EXPECT_NE(plan.find("until 8 reversals (also where a bound holds the level) or "), std::string::npos)
+            << plan;
     }
     std::filesystem::remove(folder_ / "analysis.R");
     EXPECT_EQ(call("study plan magnitudes --participants 4 --out plan.txt").out.find("Measures"),

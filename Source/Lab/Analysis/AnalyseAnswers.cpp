@@ -51,7 +51,7 @@ void tell(std::ostream& out, const LevelSummary& s) {
     out << ", " << counted(s.trials, "trial") << " of "
         << counted(isThreshold ? s.thresholds.size() : s.participants, "participant");
     if (s.kind == LevelTrial::Kind::staircase)
-        out << ", " << s.reversals << " reversals that a trial followed";
+        out << ", " << s.reversals << " reversals of the level that a trial followed";
     out << '\n';
 }
 

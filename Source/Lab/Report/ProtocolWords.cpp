@@ -105,7 +105,8 @@ std::string staircaseWords(const StaircasePlan& plan) {
                       joinedWords(plan.startsDb, ", ", numberText)) +
            " dB in steps of " + dbWords(plan.stepDb) + ", halved at each reversal down to " +
            dbWords(plan.leastStepDb) + ", " + rangeWords(plan.leastDb, plan.mostDb) + ", until " +
-           std::to_string(plan.reversals) + " reversals or " + std::to_string(plan.mostTrials) + " trials";
+           std::to_string(plan.reversals) + " reversals (also where a bound holds the level) or " +
+           std::to_string(plan.mostTrials) + " trials";
 }
 
 std::string questClause(const QuestMethod& plan) {

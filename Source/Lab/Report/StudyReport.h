@@ -57,9 +57,9 @@ struct PlannedStudy {
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script);
 
 /// Sentences on what differs between a plan and the trials, or that nothing does; the first has the plan's
-/// hash. `tests`: those of the report. Fails on a text that is no plan. Any thread (allocates).
+/// hash. `tests`: those of the report, where R ran. Fails on a text that is no plan. Any thread (allocates).
 Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::string_view name,
                                                   const ReportTrials& trials,
-                                                  const std::vector<std::string>& tests);
+                                                  const std::optional<std::vector<std::string>>& tests);
 
 } // namespace physvib
