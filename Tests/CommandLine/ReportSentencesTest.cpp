@@ -74,7 +74,11 @@ std::vector<Sentence> sentences() {
                    moved = variables("{hz}", "moved"),
                    itself = variables("2{level_db}0 --duty {hz}", "itself");
     Protocol matched = example("equal-sensation");
-    Protocol told = grid;
+    Protocol told = grid, strength = moved;
+    strength.name = "strength";
+    CallSet& calls = std::get<CallSet>(strength.conditions.back().stimuli);
+    calls.variables.front().at0Db = 0.2;
+    calls.call = "stimulus phantom --at 0.5,0.5 --layout phone1 --level-g {hz} --seconds 0.5";
     Protocol timed = grid;
     timed.name = "timed", timed.sessions.back().answerSeconds = 1.5;
     told.name = "told", told.sessions.back().task = StudyTask::describe;
@@ -185,7 +189,9 @@ std::vector<Sentence> sentences() {
         {"thin lines: the function of each participant who has one; thick: that of the mean threshold and",
          of(constant, 3, rising, true), of(constant, 3, alike, true)},
         {"nobody can be fitted", of(constant, 3, alike, true), of(constant, 3, rising, true)},
-        {"a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be the smallest",
+        {"a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be the smallest; "
+         "the "
+         "threshold that counts is half way between the first and the last such step, at ",
          of(constant, 3, step, true), of(constant, 3, rising, true)},
         {"functions are logistic, with a guess rate of", of(constant, 3, rising, true), of(quest, 3)},
         {"The JND is half of what lies between a quarter and three quarters.", of(constant, 3, rising, true),
@@ -260,6 +266,9 @@ std::vector<Sentence> sentences() {
         {"Dotted: threshold. ", of(constant, 1, rising, true), of(constant, 3, rising, true)},
         {"Each participant's numbers are divided by their own geometric mean first.", of(numbers, 3),
          of(steps, 3)},
+        {", 100 matched to 200 at ", of(matched, 3, {}, true), of(steps, 3)},
+        {"in dB where hz is 0.2 at 0 dB in high, elsewhere of the condition's own level, or of a call",
+         of(strength, 3, {}, true), of(moved, 3, {}, true)},
         {"Levels that were set by adjustment: means", of(matched, 3, {}, true), of(steps, 3)},
         {"were set to an end of their range, -12 to 18 dB: the match may lie beyond it",
          of(matched, 3, set("value", "-12"), true), of(matched, 3, {}, true)},

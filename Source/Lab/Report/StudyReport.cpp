@@ -97,6 +97,9 @@ void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run
                           (made.tests.empty() ? ": no test was made." : ":"));
     report.page.lines(ran.value[testsWords]);
     ran.value.erase(testsWords);
+    std::vector<std::string> tables;
+    for (const auto& [name, text] : ran.value) tables.push_back(name);
+    report.page.paragraph("Tables by R: " + joined(tables, ", ") + ".");
     made.files.merge(ran.value);
 }
 
@@ -134,6 +137,7 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
         report.page.list(compared.value);
     }
     tellProvenance(report);
+    made.functions = report.functions;
     made.files.insert(report.tables().begin(), report.tables().end());
     made.files["index.html"] = report.page.html();
     return made;
@@ -308,7 +312,18 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
         measures.emplace_back(
             "thresholds (of two answers points of subjective equality) and JNDs of each "
             "participant's logistic function, by maximum likelihood: its level half way up, and "
-            "half of what lies between a quarter and three quarters");
+            "half of what lies between a quarter and three quarters; functions are " +
+            report.value.functions);
+    if (has([](const SessionPlan& s) { return s.adjustment.has_value(); }))
+        measures.emplace_back("matched levels: each participant's mean of what they set, in dB");
+    if (has([](const SessionPlan& s) { return s.answer() == AnswerKind::number; }))
+        measures.emplace_back("magnitudes: geometric means of each participant; exponents of each one's "
+                              "power law of stimuli that are numbers, by least squares of logarithms");
+    if (has([](const SessionPlan& s) { return s.comparesPairs; }))
+        measures.emplace_back(
+            "pairs of stimuli: means over participants of each one's mean of a pair, and a map of them by "
+            "classical scaling (similarity.csv, mds.csv): scales whose names begin with dis or diff are "
+            "distances, others what they lack of 100, of points of their number");
     if (!measures.empty()) text += listOf("Measures", measures);
     if (has([](const SessionPlan& s) { return s.adaptedAlternative() != nullptr; }))
         exclusions.emplace_back(

@@ -17,6 +17,7 @@ struct StudyReport {
                                     ///< index.html, tables, analysis.R of two people or more
     std::vector<std::string> notes; ///< one line each on trials without a known analysis
     std::vector<std::string> tests; ///< all tests that the script ran, in words
+    std::string functions{};        ///< which psychometric functions were fitted
     std::string scriptFault;        ///< why the script did not end; empty: it did, or was not run
     bool isSimulated = false;       ///< trials are of a simulated observer
 };
