@@ -49,8 +49,6 @@ std::set<std::string> allFields() {
 /// Fields that have no words of their own, and why.
 const std::map<std::string, std::string> wordless{
     {"protocol.seed", "Files, versions, seeds has it from the trial files"},
-    {"protocol.pink_noise", "the rows know whether there was any"},
-    {"protocol.pink_noise_db", "the rows know how loud it was"},
     {"protocol.sounds", "a line each"},
     {"protocol.pictures", "a sentence each"},
     {"protocol.conditions", "a line each"},
@@ -123,6 +121,9 @@ std::vector<PlantedField> plantedFields() {
          "A break of 77 s lies before each condition but the first."},
         {"protocol.exposure_limit_m_per_s2", [](Protocol& p) { p.exposureLimit = 1.25; },
          "A(8) of 1.25 m/s^2"},
+        {"protocol.pink_noise", [](Protocol& p) { p.hasPinkNoise = true; }, "is to mask what can be heard."},
+        {"protocol.pink_noise_db", [](Protocol& p) { p.hasPinkNoise = true, p.pinkNoiseDb = -41; },
+         "Pink noise of -41 dB of full scale (root mean square)"},
         {"protocol.closing_question", [](Protocol& p) { p.closingQuestion = "Why so?"; },
          "in one's own words: \u201cWhy so?\u201d"},
         {"protocol.words", [](Protocol& p) { p.words = "ko"; }, "unless others were chosen: ko."},
@@ -216,13 +217,13 @@ std::vector<PlantedField> plantedFields() {
          " every 23 trials"},
         {"session.break_s", session([](SessionPlan& s) { s.breakEvery = 23, s.breakSeconds = 61; }),
          "a break of 61 s every"},
-        {"session.alternatives", two, "; alternatives one, other"},
+        {"session.alternatives", two, "; alternatives one, other, in random order in each trial"},
         {"session.both_orders", session([](SessionPlan& s) { s.bothOrders = true; }),
          "both orders of the alternatives", two},
         {"session.objects", session([](SessionPlan& s) {
              s.objects = {"ball", "can"};
          }),
-         "objects ball, can"},
+         "objects ball, can, in random order in each trial"},
         {"session.scales", session([](SessionPlan& s) {
              s.task = StudyTask::rate, s.scales = {"realism", "liking"};
          }),
@@ -244,7 +245,7 @@ std::vector<PlantedField> plantedFields() {
         {"session.once", session([](SessionPlan& s) { s.isOnce = true; }),
          "on the condition as a whole, with nothing felt"},
         {"session.pairs", session([](SessionPlan& s) { s.comparesPairs = true; }),
-         "each trial has two of the stimuli"},
+         "each trial has two of the stimuli, every two of them, in random order in each trial"},
         {"session.answers", session([](SessionPlan& s) {
              s.answers = {"left", "right"};
          }),

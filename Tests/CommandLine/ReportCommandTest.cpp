@@ -103,8 +103,9 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
         EXPECT_TRUE(has(read("likes/participants.csv"), line)) << read("likes/participants.csv");
     for (const char* words :
          {"5 participants in 1 file", "Groups: 1 x, 2 y, 1 not known.", ">1 row with nothing in one of",
-          "participant T has 0 trials, others have up to 4", "participant P: 2 trials without an answer",
-          "condition=calm: 8 trials of 4 participants", "group=not known: 4 trials of 1 participant"})
+          "participant T has 0 trials, others have up to 4: they count",
+          "participant P: 2 trials without an answer", "condition=calm: 8 trials of 4 participants",
+          "group=not known: 4 trials of 1 participant"})
         EXPECT_TRUE(has(likes, words)) << words << likes.substr(likes.find("Participants<"), 3000);
     EXPECT_EQ(count(likes, "others have up to"), 1u);
     write("t.csv", "participant,group,ease,fun\nA,x,4,1\nA,x,4,\nB,x,5,2\nB,x,6,4\nC,y,1,\nD,y,2,3\n");
@@ -320,9 +321,11 @@ TEST_F(Report, WhoStoppedBeforeTheEndIsNamed) {
         EXPECT_TRUE(has(html, "participant P02 did not finish ")) << name;
         EXPECT_FALSE(has(html, "Nobody and no main trial is left out before")) << name;
         EXPECT_EQ(has(html, "this threshold is left out of means and tests"), name != "magnitudes") << name;
-        EXPECT_EQ(has(html, ", which means count like the whole, and tests where no level is lacking"),
+        EXPECT_EQ(has(html, ", which count but in means and tests that need a stimulus or level that is "
+                            "lacking, and name whom they leave out"),
                   name == "magnitudes")
             << name;
+        EXPECT_TRUE(has(read(name + "/analysis.R"), ", within = TRUE)\n")) << "as the protocol has it";
     }
 }
 

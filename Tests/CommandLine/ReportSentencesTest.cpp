@@ -74,7 +74,11 @@ std::vector<Sentence> sentences() {
                    moved = variables("{hz}", "moved"),
                    itself = variables("2{level_db}0 --duty {hz}", "itself");
     Protocol matched = example("equal-sensation");
-    Protocol told = grid;
+    Protocol told = grid, strength = moved;
+    strength.name = "strength";
+    CallSet& calls = std::get<CallSet>(strength.conditions.back().stimuli);
+    calls.variables.front().at0Db = 0.2;
+    calls.call = "stimulus phantom --at 0.5,0.5 --layout phone1 --level-g {hz} --seconds 0.5";
     Protocol timed = grid;
     timed.name = "timed", timed.sessions.back().answerSeconds = 1.5;
     told.name = "told", told.sessions.back().task = StudyTask::describe;
@@ -185,7 +189,9 @@ std::vector<Sentence> sentences() {
         {"thin lines: the function of each participant who has one; thick: that of the mean threshold and",
          of(constant, 3, rising, true), of(constant, 3, alike, true)},
         {"nobody can be fitted", of(constant, 3, alike, true), of(constant, 3, rising, true)},
-        {"a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be the smallest",
+        {"a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be the smallest; "
+         "the "
+         "threshold that counts is half way between the first and the last such step, at ",
          of(constant, 3, step, true), of(constant, 3, rising, true)},
         {"functions are logistic, with a guess rate of", of(constant, 3, rising, true), of(quest, 3)},
         {"The JND is half of what lies between a quarter and three quarters.", of(constant, 3, rising, true),
@@ -260,6 +266,9 @@ std::vector<Sentence> sentences() {
         {"Dotted: threshold. ", of(constant, 1, rising, true), of(constant, 3, rising, true)},
         {"Each participant's numbers are divided by their own geometric mean first.", of(numbers, 3),
          of(steps, 3)},
+        {", 100 matched to 200 at ", of(matched, 3, {}, true), of(steps, 3)},
+        {"in dB where hz is 0.2 at 0 dB in high, elsewhere of the condition's own level, or of a call",
+         of(strength, 3, {}, true), of(moved, 3, {}, true)},
         {"Levels that were set by adjustment: means", of(matched, 3, {}, true), of(steps, 3)},
         {"were set to an end of their range, -12 to 18 dB: the match may lie beyond it",
          of(matched, 3, set("value", "-12"), true), of(matched, 3, {}, true)},
@@ -272,10 +281,13 @@ std::vector<Sentence> sentences() {
         {"one participant, or no column participant: intervals are over trials", of(fits, 1), of(fits, 3)},
         {"no response; trials left out for that: ", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
         {": 1 of 2 trials, a training", of(grid, 3, halfATraining, true), of(grid, 3)},
-        {"staircase 1 ended at 6 trials with ", of(cut, 3, {}, true), of(interleaved, 3, {}, true)},
-        {"thresholds of staircases: means of the later half of the reversals that a trial followed, so "
+        {"reversals, for which nothing is left out", of(cut, 3, {}, true), of(interleaved, 3, {}, true)},
+        {"thresholds of staircases: means of the later half of the reversals of the level that a trial "
+         "followed, so "
          "without "
-         "one that ended the staircase (of an odd number also the middle one); of several staircases their "
+         "one that ended the staircase or whose level a bound held (of an odd number also the middle one); "
+         "of "
+         "several staircases their "
          "mean, and none where one of them has none",
          of(steps, 3), of(quest, 3)},
         {"participant P2 did not finish main in ", of(interleaved, 3, stopsEarly, true),
@@ -338,12 +350,32 @@ std::set<std::string> wordsOf(const Protocol& protocol) {
 TEST(ReportSentences, AGroupChangesTheNameOfAPlannedTest) {
     const auto trials = readReportTrials({{"P1.csv", fileOf(points(), 1, {})}}, {}, {}).value;
     const auto withGroup =
-        comparedWithPlan("# physvib 1 plan=study hash=" + trials.common("hash") +
-                             " participants=1\n- test: Friedman's test of x by a, b\n",
-                         "plan", trials, {"Friedman's and Kruskal and Wallis' test of x by a, b, group"})
+        comparedWithPlan(
+            "# physvib 1 plan=study hash=" + trials.common("hash") +
+                " participants=1\n- test: Friedman's test of x by a, b\n",
+            "plan", trials,
+            std::vector<std::string>{"Friedman's and Kruskal and Wallis' test of x by a, b, group"})
             .value;
     EXPECT_EQ(withGroup.back(), "Planned as Friedman's test of x by a, b, done as Friedman's and Kruskal and "
                                 "Wallis' test of x by a, b, group");
+}
+
+TEST(ReportSentences, APlanWithoutTestsIsKeptByAReportWithoutTests) {
+    const auto trials = readReportTrials({{"P1.csv", fileOf(points(), 1, {})}}, {}, {}).value;
+    const auto last = [&](const std::string& participants,
+                          const std::optional<std::vector<std::string>>& done) {
+        return comparedWithPlan("# physvib 1 plan=study hash=" + trials.common("hash") +
+                                    " participants=" + participants + "\nnone\n",
+                                "plan", trials, done)
+            .value.back();
+    };
+    const std::vector<std::string> none;
+    EXPECT_EQ(last("1", none),
+              "Protocol and number of participants are as planned; plan and report make no test.");
+    EXPECT_EQ(last("2", none), "Plan and report make no test.");
+    EXPECT_EQ(last("1", std::vector<std::string>{"a"}), "Not planned: a");
+    EXPECT_EQ(last("1", {}),
+              "The tests are not compared: R did not run, now or when it was planned; the scripts can be.");
 }
 
 TEST(ReportSentences, StaircasesThatRanOutOfTimeAreNoChoices) {

@@ -45,6 +45,7 @@ TEST_F(ReportThresholds, OfConstantStimuliArePlanned) {
     const std::string plan = call("study plan study.json --participants 4 --out plan.txt").out;
     for (const char* test :
          {"and JNDs of each participant's logistic function",
+          "three quarters; functions are logistic, with a guess rate of 50 % and lapse rates of up to 10 %\n",
           "analysis of variance of threshold by condition", "pairs by t of JND by condition"})
         EXPECT_NE(plan.find(test), std::string::npos) << plan;
 }
@@ -77,12 +78,31 @@ TEST_F(ReportThresholds, PlansHaveTheirMeasuresAndTheTestsOfTimeThatRanOut) {
                 << plan;
         EXPECT_NE(
             plan.find("\nMeasures\n- thresholds of staircases: means of the later half of the reversals "
-                      "that a trial followed, so without one that ended the staircase"),
+                      "of the level that a trial followed, so without one that ended the staircase"),
             std::string::npos);
+        EXPECT_NE(plan.find("until 8 reversals (also where a bound holds the level) or "), std::string::npos)
+            << plan;
     }
     std::filesystem::remove(folder_ / "analysis.R");
-    EXPECT_EQ(call("study plan magnitudes --participants 4 --out plan.txt").out.find("Measures"),
-              std::string::npos);
+    write("matches.json", read(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/equal-sensation.json"));
+    write("pairs.json", read(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/pairs-similarity.json"));
+    for (const auto& [name, measure] :
+         {std::pair<std::string, std::string>{"magnitudes", "magnitudes: geometric"},
+          {"matches.json", "matched levels: each"},
+          {"pairs.json", "pairs of stimuli: means over"},
+          {"eight-methods", ""}}) {
+        std::filesystem::remove(folder_ / "analysis.R");
+        const std::string plan = call("study plan " + name + " --participants 4 --out plan.txt").out;
+        for (const char* one : {"magnitudes: geometric", "matched levels: each",
+                                "pairs of stimuli: means over", "thresholds of"})
+            EXPECT_EQ(plan.find(std::string{"\nMeasures\n- "} + one) != plan.npos, one == measure)
+                << name << plan;
+    }
+    ASSERT_EQ(call("study run pairs.json --observer simulated --participants 3").exitCode, 0);
+    ASSERT_EQ(call("report pairs-similarity-P*.csv --protocol pairs.json --out out").exitCode, 0);
+    if (hasProgram("Rscript"))
+        EXPECT_NE(read("out/index.html").find("Tables by R: mds.csv, similarity.csv, tests.csv."),
+                  std::string::npos);
 }
 
 } // namespace

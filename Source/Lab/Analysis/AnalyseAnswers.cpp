@@ -30,10 +30,27 @@ const char* kindWord(LevelTrial::Kind kind) {
     return kind == LevelTrial::Kind::adjustment ? "matched at" : "magnitude";
 }
 
-void tell(std::ostream& out, const LevelSummary& s) {
+/// "60 matched to 200 at", of levels that were set in a session of a known protocol.
+std::string kindWords(const LevelSummary& s, const std::optional<Protocol>& protocol) {
+    std::set<std::string> all;
+    if (protocol && s.kind == LevelTrial::Kind::adjustment)
+        for (const SessionPlan& one : protocol->sessions) {
+            if (!one.adjustment) continue;
+            std::string words = one.adjustment->alternative + " matched to";
+            for (const Alternative& other : one.alternatives)
+                if (other.name != one.adjustment->alternative) words += " " + other.name;
+            words += " at";
+            if (s.condition.ends_with(" in " + one.name)) return words;
+            all.insert(words);
+        }
+    return all.size() == 1 ? *all.begin() : kindWord(s.kind);
+}
+
+void tell(std::ostream& out, const LevelSummary& s, const std::optional<Protocol>& protocol) {
     const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
-    out << cleanLine(s.condition) << (s.stimulus.empty() || s.condition.empty() ? "" : ", ")
-        << cleanLine(s.stimulus) << ": " << kindWord(s.kind) << ' ';
+    const std::string stimulus = protocol && s.stimulus == "stimulus" ? "" : s.stimulus; // the only one
+    out << cleanLine(s.condition) << (stimulus.empty() || s.condition.empty() ? "" : ", ")
+        << cleanLine(stimulus) << ": " << cleanLine(kindWords(s, protocol)) << ' ';
     const bool isThreshold = s.kind == LevelTrial::Kind::staircase || s.kind == LevelTrial::Kind::quest;
     if (isThreshold && s.thresholds.empty()) {
         out << "of nobody, " << counted(s.trials, "trial") << '\n';
@@ -51,7 +68,7 @@ void tell(std::ostream& out, const LevelSummary& s) {
     out << ", " << counted(s.trials, "trial") << " of "
         << counted(isThreshold ? s.thresholds.size() : s.participants, "participant");
     if (s.kind == LevelTrial::Kind::staircase)
-        out << ", " << s.reversals << " reversals that a trial followed";
+        out << ", " << s.reversals << " reversals of the level that a trial followed";
     out << '\n';
 }
 
@@ -144,7 +161,7 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
     const auto summaries = summariseLevels(data.conditions.front().trials);
     ExportTable each{"thresholds", data.isSimulated, "method,condition,participant,threshold"};
     for (const LevelSummary& s : summaries) {
-        tell(out, s);
+        tell(out, s, job.protocol);
         for (const std::string& words : s.leftOut)
             report.warnings.push_back(cleanLine(s.condition) + ": " + words);
         for (const auto& [participant, threshold] : s.thresholds)
@@ -237,6 +254,7 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
     auto& [o, report, out, table] = to;
     bool isFitted = false;
     const FitWords words = fitWords(o.columns, o.level, o.measure);
+    const auto stepAt = [](double level) { return fixedNumber(level, decimalsOf(level)); };
     for (const auto& condition : data.conditions) {
         std::vector<double> thresholds, jnds;
         for (const LevelCount& at :
@@ -263,7 +281,10 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
                 warnOf(
                     report, condition.name, own.participant,
                     ": a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be "
-                    "the smallest");
+                    "the smallest; the " +
+                        std::string{words.half(o.model)} +
+                        " that counts is half way between the first and the last such step, at " +
+                        stepAt(own.fit.steps.first) + " and " + stepAt(own.fit.steps.second));
             table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),
                       ifKnown(f.jnd()), f.guess, f.lapse, own.fit.logLikelihood);
         }

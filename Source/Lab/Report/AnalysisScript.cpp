@@ -50,11 +50,11 @@ std::string vectorInR(const std::vector<std::string>& words) {
 } // namespace
 
 std::string analysisScript(const std::string& study, const std::vector<std::string>& scales,
-                           const std::vector<std::string>& points, const std::string& half) {
+                           const std::vector<std::string>& points, const std::string& half, bool isWithin) {
     std::string text = embedded(analysisScriptName);
     text += "study(" + inR(study) + ", " + vectorInR(scales) +
             (points.empty() ? "" : ", " + vectorInR(points)) + (half.empty() ? "" : ", half = " + inR(half)) +
-            ")\n";
+            (isWithin ? ", within = TRUE)\n" : ")\n");
     return withOrigin(study, text);
 }
 

@@ -27,8 +27,10 @@ using ScriptRunner = std::function<Result<StudyFiles>(const StudyFiles&)>;
 
 /// The script. `study`: what it is of, one line. Equal input gives equal bytes. Any thread (allocates).
 /// `points`: the scales whose scores are ranks. `half`: what the page calls a function's level of a half.
+/// `isWithin`: everybody was to have each condition, whoever has estimates.
 std::string analysisScript(const std::string& study, const std::vector<std::string>& scales,
-                           const std::vector<std::string>& points = {}, const std::string& half = {});
+                           const std::vector<std::string>& points = {}, const std::string& half = {},
+                           bool isWithin = false);
 
 /// A notebook of its steps, for Quarto or R Markdown. Any thread (allocates).
 std::string analysisNotebook(const std::string& study);

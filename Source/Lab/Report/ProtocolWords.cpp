@@ -34,6 +34,8 @@ std::string joinedWords(const Items& items, const char* between, WordsOf wordsOf
     return words;
 }
 
+constexpr const char* inRandomOrder = ", in random order in each trial";
+
 std::string spoken(const std::string& words) { return "\u201c" + words + "\u201d"; }
 std::string secondsWords(double seconds) { return numberText(seconds) + " s"; }
 std::string dbWords(double db) { return numberText(db) + " dB"; }
@@ -105,7 +107,8 @@ std::string staircaseWords(const StaircasePlan& plan) {
                       joinedWords(plan.startsDb, ", ", numberText)) +
            " dB in steps of " + dbWords(plan.stepDb) + ", halved at each reversal down to " +
            dbWords(plan.leastStepDb) + ", " + rangeWords(plan.leastDb, plan.mostDb) + ", until " +
-           std::to_string(plan.reversals) + " reversals or " + std::to_string(plan.mostTrials) + " trials";
+           std::to_string(plan.reversals) + " reversals (also where a bound holds the level) or " +
+           std::to_string(plan.mostTrials) + " trials";
 }
 
 std::string questClause(const QuestMethod& plan) {
@@ -175,6 +178,9 @@ std::vector<std::string> protocolSentences(const Protocol& protocol) {
         "Every participant does each session in each condition; the order of conditions is " +
             std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)]) + "."};
     sentences.push_back(levelChain(protocol, "as planned"));
+    if (protocol.hasPinkNoise)
+        sentences.push_back("Pink noise of " + dbWords(protocol.pinkNoiseDb) +
+                            " of full scale (root mean square) is to mask what can be heard.");
     if (protocol.conditionBreakSeconds > 0.0)
         sentences.push_back("A break of " + secondsWords(protocol.conditionBreakSeconds) +
                             " lies before each condition but the first.");
@@ -237,11 +243,14 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     if (session.fewestTouches > 0) words += ", " + std::to_string(session.fewestTouches) + " touches";
     if (session.bothOrders) words += ", both orders of the alternatives";
     if (!session.alternatives.empty())
-        words += "; alternatives " + joinedWords(session.alternatives, ", ", alternativeWords);
-    if (!session.objects.empty()) words += "; objects " + joined(session.objects, ", ");
+        words += "; alternatives " + joinedWords(session.alternatives, ", ", alternativeWords) +
+                 (session.answer() == AnswerKind::choice && !session.bothOrders ? inRandomOrder : "");
+    if (!session.objects.empty()) words += "; objects " + joined(session.objects, ", ") + inRandomOrder;
     if (session.answer() == AnswerKind::scores) words += scaleWords(session);
     if (!session.answers.empty()) words += "; answers " + joined(session.answers, ", ");
-    if (session.comparesPairs) words += "; each trial has two of the stimuli, every two of them";
+    if (session.comparesPairs)
+        words += std::string{"; each trial has two of the stimuli, every two of them"} +
+                 (session.bothOrders ? "" : inRandomOrder);
     if (session.isOnce) words += "; on the condition as a whole, with nothing felt";
     if (session.adjustment) words += adjustmentWords(*session.adjustment);
     if (session.staircase) words += staircaseWords(*session.staircase);
@@ -267,6 +276,8 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
     if (session.mostPlays > 0)
         words += "; felt at most " +
                  (session.mostPlays == 1 ? "once" : std::to_string(session.mostPlays) + " times");
+    else if (!session.isOnce && session.answer() != AnswerKind::wish)
+        words += "; felt as often as one likes";
     if (session.breakBeforeSeconds > 0.0)
         words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";
     if (session.breakEvery > 0 && session.breakSeconds > 0.0)

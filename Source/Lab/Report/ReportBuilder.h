@@ -27,6 +27,7 @@ public:
     ReportPage page;
     std::vector<std::string> scales; ///< columns of ratings that can be read
     std::string half{};              ///< what the page calls the level of a half
+    std::string functions{};         ///< "logistic, with ...", of those that are fitted
     bool isSimulated() const noexcept { return trials.isSimulated; }
 
     /// Number of participants in the rows, by the column participant; 1 without it.

@@ -99,6 +99,13 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, co
     const FitWords words = fitWords(report.trials.columns, fit.level, fit.measure);
     const PsychometricModel& model = fit.model;
     const std::string half = report.half = words.half(model);
+    report.functions =
+        std::string(psychometricShapeNames[static_cast<std::size_t>(model.shape)]) + ", with " +
+        (model.guess > 0.0
+             ? "a guess rate of " + numberText(std::round(1000.0 * model.guess) / 10.0) + " % and "
+             : "") +
+        "lapse rates of up to " + numberText(100.0 * model.mostLapses()) +
+        (model.guess > 0.0 ? " %" : " % at both ends, the same at each");
     std::vector<std::string> charts;
     for (const auto& condition : data.conditions)
         charts.push_back(psychometricChart(
@@ -114,14 +121,8 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, co
             (report.people() > 1
                  ? "mean " + half + ", shaded its 95 % interval over participants where there are several. "
                  : half + ". ") +
-            "The functions are " +
-            std::string(psychometricShapeNames[static_cast<std::size_t>(model.shape)]) + ", with " +
-            (model.guess > 0.0
-                 ? "a guess rate of " + numberText(std::round(1000.0 * model.guess) / 10.0) + " % and "
-                 : "") +
-            "lapse rates of up to " + numberText(100.0 * model.mostLapses()) +
-            (model.guess > 0.0 ? " %." : " % at both ends, the same at each.") +
-            " The JND is half of what lies between a quarter and three quarters.");
+            "The functions are " + report.functions +
+            ". The JND is half of what lies between a quarter and three quarters.");
 }
 
 void tellLevels(ReportBuilder& report) {

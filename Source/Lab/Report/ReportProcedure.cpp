@@ -256,7 +256,7 @@ void tellParticipants(ReportBuilder& report) {
         }
         if (canCompare && own.main < most)
             exclusions.push_back("participant " + code + " has " + counted(own.main, "trial") +
-                                 ", others have up to " + std::to_string(most));
+                                 ", others have up to " + std::to_string(most) + ": they count");
         if (own.ranOut > 0)
             exclusions.push_back("participant " + code + ": " + ranOutWords(own.ranOut) +
                                  ": analyses leave them out");

@@ -310,15 +310,18 @@ bool hasAdaptiveRows(const ReportTrials& trials) {
 
 std::string UnfinishedRun::words() const {
     if (!cutShort.empty())
-        return "participant " + participant + ": " + session + " in " + condition + ": " + cutShort;
+        return "participant " + participant + ": " + session + " in " + condition + ": " + cutShort +
+               ", for which nothing is left out";
     return "participant " + participant +
            (missing.empty() ? " did not finish " + session + " in " + condition
                             : ": the file lacks " + missing + " of " + session + " in " + condition) +
            ": " + std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +
            (isTraining   ? ", a training"
-            : isOver     ? ", which bring it to its end"
+            : isOver     ? ", which bring it to its end, and count"
             : isAdaptive ? ", so this threshold is left out of means and tests"
-            : trials > 0 ? ", which means count like the whole, and tests where no level is lacking"
+            : trials > 0 ? ", which count but in means and tests that need a stimulus or level that is "
+                           "lacking, and name "
+                           "whom they leave out"
                          : "");
 }
 

@@ -97,6 +97,9 @@ void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run
                           (made.tests.empty() ? ": no test was made." : ":"));
     report.page.lines(ran.value[testsWords]);
     ran.value.erase(testsWords);
+    std::vector<std::string> tables;
+    for (const auto& [name, text] : ran.value) tables.push_back(name);
+    report.page.paragraph("Tables by R: " + joined(tables, ", ") + ".");
     made.files.merge(ran.value);
 }
 
@@ -122,16 +125,19 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
         report.page.table(report.tableText(trialsTable), trialsTable);
     }
     if (report.people() > 1) {
-        made.files[analysisScriptName] =
-            analysisScript(studyWords(trials), report.scales, inPoints(trials), report.half);
+        made.files[analysisScriptName] = analysisScript(studyWords(trials), report.scales, inPoints(trials),
+                                                        report.half, trials.protocol.has_value());
         tellTests(report, made, script);
     }
     if (!trials.facts.plan.empty()) {
         report.page.heading("Planned and done");
-        const auto compared = comparedWithPlan(trials.facts.plan, "plan", trials, made.tests);
+        const auto tests =
+            report.people() < 2 || made.files.contains(testsTable) ? std::optional{made.tests} : std::nullopt;
+        const auto compared = comparedWithPlan(trials.facts.plan, "plan", trials, tests);
         report.page.list(compared.value);
     }
     tellProvenance(report);
+    made.functions = report.functions;
     made.files.insert(report.tables().begin(), report.tables().end());
     made.files["index.html"] = report.page.html();
     return made;
@@ -306,7 +312,18 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
         measures.emplace_back(
             "thresholds (of two answers points of subjective equality) and JNDs of each "
             "participant's logistic function, by maximum likelihood: its level half way up, and "
-            "half of what lies between a quarter and three quarters");
+            "half of what lies between a quarter and three quarters; functions are " +
+            report.value.functions);
+    if (has([](const SessionPlan& s) { return s.adjustment.has_value(); }))
+        measures.emplace_back("matched levels: each participant's mean of what they set, in dB");
+    if (has([](const SessionPlan& s) { return s.answer() == AnswerKind::number; }))
+        measures.emplace_back("magnitudes: geometric means of each participant; exponents of each one's "
+                              "power law of stimuli that are numbers, by least squares of logarithms");
+    if (has([](const SessionPlan& s) { return s.comparesPairs; }))
+        measures.emplace_back(
+            "pairs of stimuli: means over participants of each one's mean of a pair, and a map of them by "
+            "classical scaling (similarity.csv, mds.csv): scales whose names begin with dis or diff are "
+            "distances, others what they lack of 100, of points of their number");
     if (!measures.empty()) text += listOf("Measures", measures);
     if (has([](const SessionPlan& s) { return s.adaptedAlternative() != nullptr; }))
         exclusions.emplace_back(
@@ -330,13 +347,14 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
          "over those tests that can be made: what cannot be tested is named, and counts in none"});
     text += listOf("Tests over participants, as analysis.R runs them in R", tests);
     if (tests.empty())
-        text += report.value.files.contains(testsTable) ? "none\n" : std::string{notListed} + "\n";
+        text += participants < 2 || report.value.files.contains(testsTable) ? "none\n"
+                                                                            : std::string{notListed} + "\n";
     return PlannedStudy{std::move(text), std::move(report.value.files[analysisScriptName])};
 }
 
 Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::string_view name,
                                                   const ReportTrials& trials,
-                                                  const std::vector<std::string>& tests) {
+                                                  const std::optional<std::vector<std::string>>& tests) {
     std::string_view rest = plan, first = takeUntil('\n', rest);
     const TrialHead head = trialHeadOf({std::string{first.substr(std::min<std::size_t>(1, first.size()))}});
     if (!head.contains("plan") || !head.contains("hash") || !head.contains("participants"))
@@ -357,16 +375,21 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     if (std::to_string(people.size()) != head.at("participants"))
         sentences.push_back("Planned were " + head.at("participants") + " participants, " +
                             std::to_string(people.size()) + " took part.");
-    if (tests.empty() || plan.find(notListed) != std::string_view::npos) {
-        sentences.emplace_back(
-            "The tests are not compared: R did not run, now or when it was planned, or found "
-            "nothing to test; the scripts can be.");
+    if (!tests || plan.find(notListed) != std::string_view::npos) {
+        sentences.emplace_back("The tests are not compared: R did not run, now or when it was planned; the "
+                               "scripts can be.");
         return sentences;
     }
-    for (const std::string& test : tests) {
+    if (tests->empty() && planned.empty()) {
+        sentences.emplace_back(
+            (sentences.size() > 1 ? "Plan" : "Protocol and number of participants are as planned; plan") +
+            std::string{" and report make no test."});
+        return sentences;
+    }
+    for (const std::string& test : *tests) {
         if (planned.erase(test) > 0) continue;
         const auto other = std::ranges::find_if(planned, [&](const auto& one) {
-            return stemOf(one) == stemOf(test) && std::ranges::find(tests, one) == tests.end();
+            return stemOf(one) == stemOf(test) && std::ranges::find(*tests, one) == tests->end();
         });
         sentences.push_back(other == planned.end() ? "Not planned: " + test
                                                    : "Planned as " + *other + ", done as " + test);

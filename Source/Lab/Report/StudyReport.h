@@ -17,6 +17,7 @@ struct StudyReport {
                                     ///< index.html, tables, analysis.R of two people or more
     std::vector<std::string> notes; ///< one line each on trials without a known analysis
     std::vector<std::string> tests; ///< all tests that the script ran, in words
+    std::string functions{};        ///< which psychometric functions were fitted
     std::string scriptFault;        ///< why the script did not end; empty: it did, or was not run
     bool isSimulated = false;       ///< trials are of a simulated observer
 };
@@ -57,9 +58,9 @@ struct PlannedStudy {
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script);
 
 /// Sentences on what differs between a plan and the trials, or that nothing does; the first has the plan's
-/// hash. `tests`: those of the report. Fails on a text that is no plan. Any thread (allocates).
+/// hash. `tests`: those of the report, where R ran. Fails on a text that is no plan. Any thread (allocates).
 Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::string_view name,
                                                   const ReportTrials& trials,
-                                                  const std::vector<std::string>& tests);
+                                                  const std::optional<std::vector<std::string>>& tests);
 
 } // namespace physvib

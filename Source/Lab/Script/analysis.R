@@ -151,6 +151,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   people <- setNames(lapply(between, function(b) of.people(file, measure, b, rownames(cells), where)), sprintf("b%d", seq_along(between)))
   x <- if (length(between) > 0) model.matrix(as.formula(paste("~", paste(names(people), collapse = "*"))), as.data.frame(people), lapply(people, function(f) "contr.sum"))
        else matrix(1, n, 1)
+  if (length(between) > 0) cat("  between people: sums of squares of type III, contrasts that sum to 0\n", sep = "")
   if (length(between) > 0 && length(within) > 0) tell.means(cells, interaction(people, sep = ":", drop = TRUE))
   terms <- if (length(between) > 0) attr(x, "assign") else 0
   labels <- c("", vapply(unlist(lapply(seq_along(between), function(m) combn(between, m, paste, collapse = ":")), use.names = FALSE), identity, ""))
@@ -191,12 +192,14 @@ anova.test <- function(test, file, measure, within = character(), where = charac
     cell <- interaction(people); own <- rowMeans(cells); away <- abs(own - ave(own, cell, FUN = median)); a <- anova(lm(away ~ cell))
     if (a[2, 2] > 1e-20 * sum(away^2)) result(test, "groups homogeneity", "Levene's F of medians", round(a[1, 4], 12), a[1, 5], n, a[1, 1], a[2, 1])
   })
-  attempt(test, "residuals normality", {
+  of <- if (length(between) > 0) ", as deviations from the group's mean"
+  normality <- if (ncol(cells) > 2) "residuals normality" else paste0("normality of the ", if (ncol(cells) == 2) "differences" else "participants' means", of)
+  attempt(test, normality, {
     left <- as.matrix(lm.fit(x, cells)$residuals)
     shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n, note = if (length(left) > n) paste("of", length(left), "residuals") else "") }
     # of two cells the differences: what is left of both of them is the same with two signs
-    shapiro("residuals normality", if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
-    if (length(between) > 0 && ncol(cells) > 1) shapiro("participants' means normality", rowMeans(left))
+    shapiro(normality, if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
+    if (length(between) > 0 && ncol(cells) > 1) shapiro(paste0("normality of the participants' means", of), rowMeans(left))
   })
   if (length(attr(cells, "lacking")) > 0) attempt(test, "mixed model", if (requireNamespace("lme4", quietly = TRUE)) mixed(test, file, measure, within, between, where)
                                                                   else stop("the package lme4, for a model of all people, is not here"))
@@ -212,24 +215,26 @@ mixed <- function(test, file, measure, within, between, where) {
   several <- unlist(lapply(seq_len(length(within) - 1), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE) # all of them are what is left
   random <- function(id, names) c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), ""))
   parts <- setNames(random("participant", within), random("id", sprintf("w%d", seq_along(within))))
-  cat("  mixed model: by maximum likelihood, random ", paste0("(1 | ", parts, ")", collapse = " + "), "\n", sep = "")
+  cat("  mixed model: by maximum likelihood, each effect by the likelihood ratio of the models with and without it, contrasts that sum to 0, random ", paste0("(1 | ", parts, ")", collapse = " + "), "\n", sep = "")
   model <- as.formula(paste("y ~ 0 + x +", paste0("(1 | ", names(parts), ")", collapse = " + ")))
-  fit <- function(x) {
+  fit <- function(x, which) {
     m <- suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE)); variances <- vapply(lme4::VarCorr(m), `[`, 0, 1)
     zero <- names(variances)[variances <= 1e-8 * sigma(m)^2]
-    if ("id" %in% zero) stop("participants' variance is estimated as 0, so cells would count as people")
+    if ("id" %in% zero) stop("in the model ", which, " participants' variance is estimated as 0, so cells would count as people")
     list(l = as.numeric(logLik(m)), zero = parts[zero], failed = any(grepl("converge", unlist(m@optinfo$conv$lme4$messages))))
   }
-  all <- fit(x)
+  all <- fit(x, "with all effects"); singular <- function(zero, which) if (length(zero) > 0) paste("variance of", paste(zero, collapse = " and of "), "estimated as 0 in the model", which)
   for (t in seq_along(labels)) attempt(test, paste(labels[t], "mixed model"), {
-    less <- fit(x[, terms != t, drop = FALSE]); chi <- max(0, 2 * (all$l - less$l)); zero <- unique(c(all$zero, less$zero))
+    without <- paste("without", labels[t]); less <- fit(x[, terms != t, drop = FALSE], without); chi <- max(0, 2 * (all$l - less$l))
     result(test, paste(labels[t], "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t),
-           note = paste(c("p too small where people are few", if (length(zero) > 0) paste("variance of", paste(zero, collapse = " and of "), "estimated as 0"), if (all$failed || less$failed) "did not converge"), collapse = ", "))
+           note = paste(c("p too small where people are few", if (setequal(all$zero, less$zero)) singular(all$zero, "with it and in that without") else c(singular(all$zero, "with all effects"), singular(less$zero, without)), if (all$failed || less$failed) "did not converge"), collapse = ", "))
   })
 }
+# What a level's value is beside other factors.
+tell.levels <- function(factors) if (length(factors) > 1) cat("  a participant's value of a level is the mean over those of the other factors, each of which counts alike, however many trials it has\n", sep = "")
 friedman <- function(test, file, measure, within = character(), where = character(), between = character(), tested = c(within, between)) { cat(test, "\n", sep = ""); attempt(test, "all", {
   rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
-  tell.lacking(test, cells)
+  tell.lacking(test, cells); tell.levels(c(within, between))
   for (i in which(within %in% tested)) attempt(test, within[i], {
     t <- friedman.test(even(by.level(rows, cells, i)))
     if (is.nan(t$p.value)) stop("all levels are tied")
@@ -246,7 +251,7 @@ friedman <- function(test, file, measure, within = character(), where = characte
 pairs.test <- function(test, file, measure, within = character(), where = character(), by = "t", correction = "holm", between = character(), paired = TRUE) {
   cat(test, "\n", sep = ""); attempt(test, "all", {
   rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
-  tell.lacking(test, cells)
+  tell.lacking(test, cells); tell.levels(c(within, between))
   if (by == "t" && length(between) > 0 && n <= nlevels(interaction(lapply(between, function(b) of.people(file, measure, b, rownames(cells), where)), drop = TRUE))) stop("expected more people than groups")
   for (f in c(within, between)) {
     is.within <- f %in% within; is.signed <- is.within && paired
@@ -292,7 +297,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
     if (by == "t" && is.within && tested > 0) for (alpha in unique(c(0.05, 0.05 / tested))) attempt(test, "power", {
       of <- if (nlevels(groups) > 1) table(groups) else n
       found <- uniroot(function(d) pt(qt(1 - alpha / 2, n - length(of)), n - length(of), d * length(of) / sqrt(sum(1 / of)), lower.tail = FALSE) - 0.8, c(0, 100), tol = 1e-9)$root
-      cat("  power: n = ", n, " finds d_z = ", round(found, 2), " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
+      cat("  power: n = ", n, if (length(of) > 1) paste0(" in ", length(of), " groups, ", n - length(of), " degrees of freedom,"), " finds d_z = ", round(found, 2), " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
     })
   }
 }) }
@@ -362,6 +367,12 @@ factor.names <- function(column, d) {
 # Of other programs' tables: columns of which people have several runs.
 runs.of <- function(d) Filter(function(f) any(tapply(d[[f]], d$participant, function(s) length(unique(s))) > 1), intersect(c("session", "phase"), names(d)))
 runs.words <- function(d, f) { runs <- unique(d[[f]]); paste0(f, " (", if (length(runs) > 4) length(runs) else paste(runs, collapse = ", "), "): ") }
+# Of estimates, that not everybody may have: the protocol (`repeated`), else all trials, say whether people had several levels of a factor.
+repeated <- FALSE; trials <- NULL
+is.repeated <- function(f) {
+  if (f == "group" || is.null(trials) || anyNA(own <- level(trials, f))) return(FALSE)
+  repeated || any(tapply(own, trials$participant, function(l) length(unique(l))) > 1)
+}
 # The factors that rows vary in: of which everybody has all levels with those of the others (within), or one alone (between). Others are averaged over,
 # and so are more than 12 stimuli without a factor's name beside other factors.
 design.of <- function(d, columns = c("group", "condition", "stimulus")) {
@@ -376,7 +387,7 @@ design.of <- function(d, columns = c("group", "condition", "stimulus")) {
     if (any(vapply(seen, function(other) nrow(unique(data.frame(other, own))) == length(levels) && length(unique(other)) == length(levels), NA))) next
     if (anyNA(own)) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste(f, "is not of every trial: averaged over, level by level")); next }
     if (f == "stimulus" && length(levels) > 12 && length(seen) > 0) { out$over <- c(out$over, f); out$notes <- c(out$notes, paste0("stimulus (", length(levels), "): averaged over, level by level")); next }
-    if (all(tapply(own, d$participant, function(l) length(unique(l))) == 1)) {
+    if (all(tapply(own, d$participant, function(l) length(unique(l))) == 1) && !is.repeated(f)) {
       sizes <- tapply(d$participant, factor(own, levels), function(who) length(unique(who)))
       if (sum(sizes > 1) == 1) { out$notes <- c(out$notes, paste0(f, ": ", paste(names(sizes)[sizes == 1], collapse = ", "), " of one participant alone: not tested")); next }
       out$between <- c(out$between, f)
@@ -542,12 +553,12 @@ single.trials <- function(test, own, measure) { cat(test, "\n", sep = ""); attem
   for (i in 2:(left - 1)) result(test, c("", "target_column", "target_row", "target_column:target_row")[i], "F", a$F[i], a$`Pr(>F)`[i], nrow(rows), a$Df[i], a$Df[left])
 }) }
 # All tests of a report's folder. `scales`: the columns of ratings; `points`: those of them whose scores are ranks; `half`: what the page calls the level of
-# a half.
-study <- function(study, scales = character(), points = character(), half = "threshold") {
+# a half; `within`: by the protocol everybody has each condition.
+study <- function(study, scales = character(), points = character(), half = "threshold", within = FALSE) {
   d <- table.of("trials.csv")
   as.published <<- grepl("protocol [^ ]*-thesis", study)
   if (!("participant" %in% names(d))) return(finish(study))
-  is.told <- "task" %in% names(d); everybody <<- unique(d$participant)
+  is.told <- "task" %in% names(d); everybody <<- unique(d$participant); trials <<- d; repeated <<- within
   if (is.told) for (column in setdiff(c("session", "correct", "level_db"), names(d))) d[[column]] <- rep("", nrow(d))
   if (!is.told) points <- union(points, Filter(function(scale) all(d[[scale]] %in% c("", "NA") | suppressWarnings(as.numeric(d[[scale]])) %in% 1:7), scales)) # of other programs
   if (is.told) for (s in Filter(function(s) length(s) > 1, lapply(split(d$session, d$task), unique)))
@@ -602,7 +613,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
     stimuli <- if ("stimulus" %in% names(own)) "stimulus"; isFunction <- file.exists("psychometric-stimuli.csv") # which tells more of levels
     for (a in if (length(names) == 2) names[1] else names)
       compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks", c("group", "condition", if (!isFunction) stimuli), if (isFunction) stimuli)
-    across(setdiff(unique(results$test), before), "alternatives", paste0("choice=", if (length(names) == 2) names[1] else names, words))
+    if (length(names) > 2) across(setdiff(unique(results$test), before), "alternatives", paste0("choice=", names, words))
   })
   before <- unique(results$test)
   aside <- character() # sessions whose scales are objects
@@ -634,7 +645,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
   finish(study)
 }
 finish <- function(study) {
-  everybody <<- character()
+  everybody <<- character(); trials <<- NULL
   lme4 <- if (any(grepl("mixed model", results$effect)) && requireNamespace("lme4", quietly = TRUE)) paste(", lme4", packageVersion("lme4")) else ""
   writeLines(paste0("# ", study, ", ", R.version.string, lme4), "tests.csv")
   for (table in list(list(similarity, "similarity.csv"), list(places, "mds.csv"))) if (nrow(table[[1]]) > 0) {

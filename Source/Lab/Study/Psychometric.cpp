@@ -12,6 +12,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 namespace physvib {
 namespace {
@@ -138,10 +139,11 @@ std::string faultOfCounts(std::span<const LevelCount> counts) {
 
 constexpr double sameLikelihood = 0.01; // of its logarithm
 
-/// True if the answers tell no width: a step at a level, or beside it, is as likely as `f`, which then
-/// becomes the one half way between the first and the last such step.
-bool becomesStep(std::span<const LevelCount> counts, const PsychometricModel& model, PsychometricFunction& f,
-                 double likeliest) {
+/// The first and the last step, at a level or beside it, that is as likely as `f`, if the answers tell no
+/// width; `f` then becomes the one half way between them.
+std::optional<std::pair<double, double>> becomesStep(std::span<const LevelCount> counts,
+                                                     const PsychometricModel& model, PsychometricFunction& f,
+                                                     double likeliest) {
     const double width = 1e-3 * (counts.back().level - counts.front().level);
     std::vector<double> at;
     for (const LevelCount& c : counts)
@@ -153,10 +155,10 @@ bool becomesStep(std::span<const LevelCount> counts, const PsychometricModel& mo
                 step.threshold -= width * whereRisen(model.shape, std::clamp(share, 1e-4, 1.0 - 1e-4));
                 if (logLikelihood(counts, step) > likeliest - sameLikelihood) at.push_back(step.threshold);
             }
-    if (at.empty()) return false;
+    if (at.empty()) return {};
     const auto [least, most] = std::ranges::minmax(at);
     f = model.with(std::midpoint(least, most), width, f.lapse);
-    return true;
+    return std::pair{least, most};
 }
 
 /// What the levels and answers do not tell, though a likeliest function was found.
@@ -213,8 +215,9 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
     const Point best = climb(likelihood, std::ranges::min(tops, {}, likelihood)); // step 3
     PsychometricFunction found = likelihood.function(best);
     const double likeliest = -likelihood(best);
-    const bool isStep = becomesStep(counts, model, found, likeliest);
-    return {faultOfFit(counts, found, likeliest), found, likeliest, !isStep};
+    const auto steps = becomesStep(counts, model, found, likeliest);
+    return {faultOfFit(counts, found, likeliest), found, likeliest, !steps,
+            steps.value_or(std::pair{0.0, 0.0})};
 }
 
 // Groups trials by participant and fits each group.

@@ -80,7 +80,8 @@ struct PsychometricFit {
     std::string fault; ///< why it is no fit, in one line; if set, the rest is of no account
     PsychometricFunction function{};
     double logLikelihood = 0.0;
-    bool hasJnd = false; ///< else the width and the JND are of no account
+    bool hasJnd = false;               ///< else the width and the JND are of no account
+    std::pair<double, double> steps{}; ///< without it: the first and the last that fit as well
 };
 
 /// Maximum-likelihood fit; `counts` by rising levels. Errors: fewer than two levels, answers that do not rise

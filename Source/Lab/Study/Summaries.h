@@ -166,9 +166,9 @@ struct LevelTrial {
 /// What the thresholds of reports and plans are.
 inline constexpr const char
     *staircaseThresholds =
-        "thresholds of staircases: means of the later half of the reversals that a trial "
-        "followed, so without one that ended the staircase (of an odd number also the middle "
-        "one); of several staircases their mean, and none where one of them has none",
+        "thresholds of staircases: means of the later half of the reversals of the level that a trial "
+        "followed, so without one that ended the staircase or whose level a bound held (of an odd number "
+        "also the middle one); of several staircases their mean, and none where one of them has none",
     *questThresholds = "thresholds by QUEST+: of each participant with the widths that all answers in the "
                        "condition tell together; intervals are Student's t and the error of these widths";
 

@@ -40,7 +40,7 @@ for (n in c(2, 3, 4, 12, 49, 50)) for (levels in list(2, 3, 6, c(2, 3), c(2, 2, 
   }
   if (length(levels) == 1 && levels == 2 && n > 3) {
     wide <- with(m, tapply(y, list(participant, a), mean))
-    same(paste("normality of differences, n", n), line(ours, "residuals normality")$p, shapiro.test(wide[, 1] - wide[, 2])$p.value)
+    same(paste("normality of differences, n", n), line(ours, "normality of the differences")$p, shapiro.test(wide[, 1] - wide[, 2])$p.value)
     if (n == 12) { # pairs by ranks alone tell who is lacking; beside another test they do not say it again
       if (line(told(pairs.test("pairs by ranks of y by a", "trials.csv", "y", "a", by = "ranks")), "left out")$n != 11) fault("who lacks a level of pairs by ranks is not told")
       both <- told({ anova.test("analysis of variance of y by a", "trials.csv", "y", "a"); pairs.test("pairs by t of y by a", "trials.csv", "y", "a") })
@@ -176,7 +176,7 @@ for (sizes in list(c(6, 6), c(4, 7), c(5, 3, 6))) {
 if (requireNamespace("lme4", quietly = TRUE)) {
   d <- expand.grid(condition = c("x", "y", "z"), participant = person(8), stringsAsFactors = FALSE); d$y <- rnorm(nrow(d)); d$y <- d$y - ave(d$y, d$participant); rows(d[-1, ])
   ours <- told(anova.test("t", "trials.csv", "y", "condition"))
-  if (!grepl("estimated as 0", line(ours, "mixed model")$note) || any(ours$effect == "condition mixed model")) fault("a model of cells as people is told")
+  if (!grepl("^in the model with all effects participants' variance is estimated as 0", line(ours, "mixed model")$note) || any(ours$effect == "condition mixed model")) fault("a model of cells as people is told")
 }
 # Magnitudes are averaged as logarithms, over levels in dB with a word.
 d <- expand.grid(level_db = c(0, 6), participant = person(8), stringsAsFactors = FALSE); d$group <- ifelse(as.integer(d$participant) %% 2 == 0, "a", "b"); d$value <- round(exp(rnorm(nrow(d), 2)), 2)
@@ -303,7 +303,7 @@ wide <- tapply(sqrt(both$x + both$y), list(both$participant, both$condition), me
 same("scatter", line(ours[grepl("^pairs by t of variable error", ours$test), ], "condition: c1 - c2")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
 # One score of each person: groups are all there is.
 d <- data.frame(participant = person(15), group = rep(c("g", "h", "h"), 5), y = rnorm(15)); rows(d)
-same("residuals of groups", line(told(anova.test("t", "trials.csv", "y", between = "group")), "residuals normality")$p, shapiro.test(residuals(lm(y ~ group, d)))$p.value)
+same("residuals of groups", line(told(anova.test("t", "trials.csv", "y", between = "group")), "normality of the participants' means, as deviations from the group's mean")$p, shapiro.test(residuals(lm(y ~ group, d)))$p.value)
 # Pairs: the matrix of means, and a map that has the distances of points in a plane.
 at <- cbind(c(0, 3, 0, 5), c(0, 0, 4, 5)); two <- combn(4, 2); names(at) <- NULL
 d <- expand.grid(pair = 1:6, participant = person(3), stringsAsFactors = FALSE)
@@ -420,7 +420,7 @@ ours <- whole(d, character()); unlink("psychometric-stimuli.csv"); if (!any(grep
 d <- expand.grid(trial = 1:2, target_x = c(100, 700), target_y = c(50, 90), participant = person(6)); d$target_column <- d$target_x %/% 300 + 1; d$target_row <- d$target_y %/% 60 + 1; d$x <- rnorm(48); d$y <- rnorm(48)
 if (nrow(line(whole(d, character()), "target_x: 100 - 700")) != 2) fault("which column is 1 is not told")
 # What the mixed model has is told.
-if (requireNamespace("lme4", quietly = TRUE)) { rows(whole.rows); if (!any(grepl("mixed model: by maximum likelihood, random (1 | participant) + (1 | participant:condition) + (1 | participant:stimulus)",
+if (requireNamespace("lme4", quietly = TRUE)) { rows(whole.rows); if (!any(grepl("mixed model: by maximum likelihood, each effect by the likelihood ratio of the models with and without it, contrasts that sum to 0, random (1 | participant) + (1 | participant:condition) + (1 | participant:stimulus)",
   capture.output(anova.test("t", "trials.csv", "y", c("condition", "stimulus"))), fixed = TRUE))) fault("a mixed model without its random part") }
 # A pair that cannot be tested counts in no correction, and that is said.
 d <- expand.grid(condition = c("x", "y", "z"), participant = person(6), stringsAsFactors = FALSE); d$y <- as.integer(d$participant) + 10 * (d$condition == "z"); rows(d)
@@ -450,7 +450,28 @@ if (any(grepl("NA -|- NA$", ours$effect)) || !any(grepl("01, 02: group not known
 if (requireNamespace("lme4", quietly = TRUE)) {
   d <- expand.grid(condition = c("x", "y", "z"), stimulus = c("s", "t"), participant = person(9), stringsAsFactors = FALSE); own <- rnorm(9)[as.integer(d$participant)]; e <- residuals(lm(rnorm(54) ~ participant * condition + participant * stimulus, d)); d$y <- 3 * own + e; rows(d[-1, ])
   note <- line(told(anova.test("t", "trials.csv", "y", c("condition", "stimulus"))), "condition mixed model")$note
-  if (!grepl("variance of participant:condition and of participant:stimulus estimated as 0", note)) fault("a singular model goes without a word:", note)
+  if (!grepl("variance of participant:condition and of participant:stimulus estimated as 0 in the model with it and in that without", note)) fault("a singular model goes without a word:", note)
+  # Of one without the effect, that it was that one.
+  d <- expand.grid(condition = c("x", "y", "z"), participant = person(8), stringsAsFactors = FALSE); d$y <- 9 * (d$condition == "z") + rep(c(-1, 1), each = 12) + residuals(lm(rnorm(24) ~ participant, d)); rows(d[-1, ])
+  note <- line(told(anova.test("t", "trials.csv", "y", "condition")), "condition mixed model")$note
+  if (!startsWith(note, "in the model without condition participants' variance is estimated as 0")) fault("which model has no variance is not told:", note)
 }
+# People had two conditions; that nobody has an estimate of both makes no groups of them, beside all trials, or by a protocol that says so.
+d <- expand.grid(condition = c("x", "y"), participant = person(8), stringsAsFactors = FALSE); d$percent_correct <- rnorm(16); one <- d[d$condition == ifelse(as.integer(d$participant) < 4, "x", "y"), ]
+for (by.protocol in c(FALSE, TRUE)) {
+  rows(one, "identification.csv"); ours <- whole(if (by.protocol) one[1:2] else d[1:2], character(), within = by.protocol)
+  if (nrow(ours) != 1 || ours$note != "condition: of 8 participants 0 have all its levels: not tested") fault("whose estimates are lacking are taken as groups:", ours$test, ours$note)
+}
+if (!any(whole(one[1:2], character())$effect == "condition")) fault("groups by condition are not tested")
+unlink("identification.csv")
+# Two alternatives are one question.
+d <- expand.grid(trial = 1:9, participant = person(9), condition = c("c1", "c2", "c3"), stimulus = c("s", "t"), stringsAsFactors = FALSE); d$task <- "choose"; d$session <- d$phase <- "main"; d$correct <- d$level_db <- ""; d$parts <- "A|B"
+d$choice <- sample(c("A", "B"), nrow(d), TRUE); ours <- whole(d, character())
+if (any(grepl("over alternatives", spoken.words)) || !any(ours$effect == "condition")) fault("one alternative is corrected over alternatives")
+for (test in c("Friedman's test", "pairs by ranks")) if (!grepl("value of a level is the mean over those of the other factors", spoken.words[grep(paste("^", test, "of choice"), paste("", spoken.words)) + 1])) fault("what a level's value is is not told:", test)
+d$y <- rnorm(nrow(d)); d$group <- ifelse(as.integer(d$participant) < 6, "g", "h"); rows(d)
+words <- capture.output({ ours <- anova.test("t", "trials.csv", "y", c("condition", "stimulus"), between = "group"); pairs.test("t", "trials.csv", "y", "condition", between = "group") })
+for (one in c("sums of squares of type III, contrasts that sum to 0", "power: n = 9 in 2 groups, 7 degrees of freedom, finds", "normality of the participants' means, as deviations from the group's mean"))
+  if (!any(grepl(one, words, fixed = TRUE))) fault("not told:", one)
 cat(faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)
