@@ -74,11 +74,7 @@ std::vector<Sentence> sentences() {
                    moved = variables("{hz}", "moved"),
                    itself = variables("2{level_db}0 --duty {hz}", "itself");
     Protocol matched = example("equal-sensation");
-    Protocol told = grid, strength = moved;
-    strength.name = "strength";
-    CallSet& calls = std::get<CallSet>(strength.conditions.back().stimuli);
-    calls.variables.front().at0Db = 0.2;
-    calls.call = "stimulus phantom --at 0.5,0.5 --layout phone1 --level-g {hz} --seconds 0.5";
+    Protocol told = grid;
     Protocol timed = grid;
     timed.name = "timed", timed.sessions.back().answerSeconds = 1.5;
     told.name = "told", told.sessions.back().task = StudyTask::describe;
@@ -206,7 +202,8 @@ std::vector<Sentence> sentences() {
         {"Mean scores in late, 95 % intervals over participants.", of(twice, 3, {}, true), of(methods, 3)},
         {"Mean of the participants' shares in which, 95", of(twice, 3, {}, true), of(fits, 3)},
         {"without a score of", of(twice, 3, unscored, true), of(twice, 3, {}, true)},
-        {"level_db: of low in dB of the condition's own level, or of a call's full scale; of high in dB of "
+        {"level_db: of low in dB of the condition's own level, of what its variable is at 0 dB, or of a "
+         "call's full scale; of high in dB of "
          "hz at 0 dB",
          of(moved, 3, {}, true), of(steps, 3)},
         {"what {level_db} is in the call", of(itself, 3, {}, true), of(moved, 3, {}, true)},
@@ -267,8 +264,6 @@ std::vector<Sentence> sentences() {
         {"Each participant's numbers are divided by their own geometric mean first.", of(numbers, 3),
          of(steps, 3)},
         {", 100 matched to 200 at ", of(matched, 3, {}, true), of(steps, 3)},
-        {"in dB where hz is 0.2 at 0 dB in high, elsewhere of the condition's own level, or of a call",
-         of(strength, 3, {}, true), of(moved, 3, {}, true)},
         {"Levels that were set by adjustment: means", of(matched, 3, {}, true), of(steps, 3)},
         {"were set to an end of their range, -12 to 18 dB: the match may lie beyond it",
          of(matched, 3, set("value", "-12"), true), of(matched, 3, {}, true)},

@@ -116,26 +116,8 @@ std::vector<double> numbersOf(std::string_view cell) {
     return numbers;
 }
 
-/// "where g is 0.1 at 0 dB in one": what the strength of a condition's calls rests on.
-std::string basesIn(const std::vector<std::string>& conditions, const std::optional<Protocol>& protocol) {
-    std::string words;
-    std::size_t without = 0;
-    for (const ConditionPlan& one : protocol ? protocol->conditions : std::vector<ConditionPlan>{}) {
-        if (std::ranges::find(conditions, one.name) == conditions.end()) continue;
-        const CallSet* const calls = callSetOf(one.stimuli);
-        const std::string before = words;
-        for (const StudyVariable& variable : calls ? calls->variables : std::vector<StudyVariable>{})
-            if (!variable.roves)
-                words += (words.empty() ? "where " : ", ") + variable.name + " is " +
-                         numberText(variable.at0Db) + " at 0 dB in " + one.name;
-        without += words == before;
-    }
-    const std::string own = "of the condition's own level, or of a call's full scale";
-    return words.empty() ? own : words + (without > 0 ? ", elsewhere " + own : std::string{});
-}
-
 /// A sentence on a column of the table of tellDoses(), followed by a space.
-std::string meaningOf(std::string_view column, const Moved& all, const std::optional<Protocol>& protocol) {
+std::string meaningOf(std::string_view column, const Moved& all) {
     if (column == "level_db") {
         std::string words = "level_db: ";
         for (const auto& [moved, conditions] : all)
@@ -143,7 +125,8 @@ std::string meaningOf(std::string_view column, const Moved& all, const std::opti
                 .append(all.size() > 1 ? "of " + listed(conditions) + " " : std::string{})
                 .append(isLevelItself(moved) ? "what {level_db} is in the call"
                         : moved.empty()
-                            ? "in dB " + basesIn(conditions, protocol)
+                            ? "in dB of the condition's own level, of what its variable is at 0 dB, or of a "
+                              "call's full scale"
                             : "in dB of " + listed(moved) + " at 0 dB (a ratio: 20 dB is 10 times as much)");
         return words + "; where participants set a level, that at the start. ";
     }
@@ -203,7 +186,7 @@ void tellDoses(ReportBuilder& report) {
                 return std::ranges::all_of(v.second, [](double db) { return db == 0.0; });
             }))
             continue;
-        if (!values.empty()) meanings += meaningOf(column, moved, report.trials.protocol);
+        if (!values.empty()) meanings += meaningOf(column, moved);
         for (const auto& [key, own] : values) {
             // means of adaptive levels and accumulated exposure have no meaning
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;

@@ -5,6 +5,7 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
 #include "Io/Text/CsvText.h"
+#include "Io/Text/NameList.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialLog.h"

@@ -231,7 +231,7 @@ mixed <- function(test, file, measure, within, between, where) {
   })
 }
 # What a level's value is beside other factors.
-tell.levels <- function(factors) if (length(factors) > 1) cat("  a participant's value of a level is the mean over those of the other factors, each of which counts alike, however many trials it has\n", sep = "")
+tell.levels <- function(factors) if (length(factors) > 1) cat("  a participant's value of a level is the mean over those of the other factors within people, each of which counts alike, however many trials it has\n", sep = "")
 friedman <- function(test, file, measure, within = character(), where = character(), between = character(), tested = c(within, between)) { cat(test, "\n", sep = ""); attempt(test, "all", {
   rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
   tell.lacking(test, cells); tell.levels(c(within, between))

@@ -468,7 +468,7 @@ unlink("identification.csv")
 d <- expand.grid(trial = 1:9, participant = person(9), condition = c("c1", "c2", "c3"), stimulus = c("s", "t"), stringsAsFactors = FALSE); d$task <- "choose"; d$session <- d$phase <- "main"; d$correct <- d$level_db <- ""; d$parts <- "A|B"
 d$choice <- sample(c("A", "B"), nrow(d), TRUE); ours <- whole(d, character())
 if (any(grepl("over alternatives", spoken.words)) || !any(ours$effect == "condition")) fault("one alternative is corrected over alternatives")
-for (test in c("Friedman's test", "pairs by ranks")) if (!grepl("value of a level is the mean over those of the other factors", spoken.words[grep(paste("^", test, "of choice"), paste("", spoken.words)) + 1])) fault("what a level's value is is not told:", test)
+for (test in c("Friedman's test", "pairs by ranks")) if (!grepl("value of a level is the mean over those of the other factors within people, each of which counts alike", spoken.words[grep(paste("^", test, "of choice"), paste("", spoken.words)) + 1])) fault("what a level's value is is not told:", test)
 d$y <- rnorm(nrow(d)); d$group <- ifelse(as.integer(d$participant) < 6, "g", "h"); rows(d)
 words <- capture.output({ ours <- anova.test("t", "trials.csv", "y", c("condition", "stimulus"), between = "group"); pairs.test("t", "trials.csv", "y", "condition", between = "group") })
 for (one in c("sums of squares of type III, contrasts that sum to 0", "power: n = 9 in 2 groups, 7 degrees of freedom, finds", "normality of the participants' means, as deviations from the group's mean"))
