@@ -187,7 +187,7 @@ std::vector<Sentence> sentences() {
         {"nobody can be fitted", of(constant, 3, alike, true), of(constant, 3, rising, true)},
         {"a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be the smallest; "
          "the "
-         "threshold that counts is half way between the first and the last such step, at ",
+         "threshold that counts is half way between the first and the last such step, ",
          of(constant, 3, step, true), of(constant, 3, rising, true)},
         {"functions are logistic, with a guess rate of", of(constant, 3, rising, true), of(quest, 3)},
         {"The JND is half of what lies between a quarter and three quarters.", of(constant, 3, rising, true),

@@ -254,7 +254,12 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
     auto& [o, report, out, table] = to;
     bool isFitted = false;
     const FitWords words = fitWords(o.columns, o.level, o.measure);
-    const auto stepAt = [](double level) { return fixedNumber(level, decimalsOf(level)); };
+    const auto stepWords = [](const std::pair<double, double>& steps) {
+        const std::string first = fixedNumber(steps.first, decimalsOf(steps.first)),
+                          last = fixedNumber(steps.second, decimalsOf(steps.first));
+        return first == last ? "that of the step, " + first
+                             : "half way between the first and the last such step, " + first + " and " + last;
+    };
     for (const auto& condition : data.conditions) {
         std::vector<double> thresholds, jnds;
         for (const LevelCount& at :
@@ -282,9 +287,7 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
                     report, condition.name, own.participant,
                     ": a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be "
                     "the smallest; the " +
-                        std::string{words.half(o.model)} +
-                        " that counts is half way between the first and the last such step, at " +
-                        stepAt(own.fit.steps.first) + " and " + stepAt(own.fit.steps.second));
+                        std::string{words.half(o.model)} + " that counts is " + stepWords(own.fit.steps));
             table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),
                       ifKnown(f.jnd()), f.guess, f.lapse, own.fit.logLikelihood);
         }
