@@ -217,7 +217,10 @@ std::vector<PlantedField> plantedFields() {
          " every 23 trials"},
         {"session.break_s", session([](SessionPlan& s) { s.breakEvery = 23, s.breakSeconds = 61; }),
          "a break of 61 s every"},
-        {"session.alternatives", two, "; alternatives one, other, in random order in each trial"},
+        {"session.alternatives", session([](SessionPlan& s) {
+             s.task = StudyTask::choose, s.alternatives = {{"one"}, {"other"}};
+         }),
+         "; alternatives one, other, in random order in each trial"},
         {"session.both_orders", session([](SessionPlan& s) { s.bothOrders = true; }),
          "both orders of the alternatives", two},
         {"session.objects", session([](SessionPlan& s) {

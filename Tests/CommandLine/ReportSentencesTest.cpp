@@ -189,6 +189,8 @@ std::vector<Sentence> sentences() {
          "the "
          "threshold that counts is half way between the first and the last such step, ",
          of(constant, 3, step, true), of(constant, 3, rising, true)},
+        {"threshold that counts is that of the step, ", of(constant, 3, step, true),
+         of(constant, 3, rising, true)},
         {"functions are logistic, with a guess rate of", of(constant, 3, rising, true), of(quest, 3)},
         {"The JND is half of what lies between a quarter and three quarters.", of(constant, 3, rising, true),
          of(quest, 3)},
@@ -263,7 +265,7 @@ std::vector<Sentence> sentences() {
         {"Dotted: threshold. ", of(constant, 1, rising, true), of(constant, 3, rising, true)},
         {"Each participant's numbers are divided by their own geometric mean first.", of(numbers, 3),
          of(steps, 3)},
-        {", 100 matched to 200 at ", of(matched, 3, {}, true), of(steps, 3)},
+        {": 100 matched to 200 at ", of(matched, 3, {}, true), of(steps, 3)},
         {"Levels that were set by adjustment: means", of(matched, 3, {}, true), of(steps, 3)},
         {"were set to an end of their range, -12 to 18 dB: the match may lie beyond it",
          of(matched, 3, set("value", "-12"), true), of(matched, 3, {}, true)},
