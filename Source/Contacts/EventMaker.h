@@ -110,17 +110,9 @@ public:
         if (!isMuted_ && (!hasMet_ || other != other_)) setPartner(other);
     }
     [[gnu::always_inline]] void add(const SmallImpact& impact) {
-        if (isMuted_) [[unlikely]] {
-            ++counts_.muted;
-            return;
-        }
-        const double amplitude = amplitudeOf(impact);
-        if (modeCount_ == 1) [[likely]]
-            return sound(modes_[0], impact, amplitude);
-        for (const Mode& mode : std::span{modes_.data(), static_cast<std::size_t>(modeCount_)}) {
-            setMode(mode);
-            sound(mode, impact, amplitude);
-        }
+        if (isMuted_ || modeCount_ != 1) [[unlikely]]
+            return addModesOf(impact);
+        sound(modes_[0], impact, amplitudeOf(impact));
     }
 
 private:
@@ -129,6 +121,7 @@ private:
         SoundNumber sound;
         bool isPlayable; // as far as it does not depend on the impact
     };
+    void addModesOf(const SmallImpact& impact); ///< any number of modes, or none: it is muted
     double amplitudeOf(const SmallImpact& impact) const noexcept {
         return pairGain_ * (gain_ * (perNewtonSecond_ * impact.newtonSeconds / amplitudeDivisor_));
     }
