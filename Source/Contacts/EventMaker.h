@@ -109,7 +109,7 @@ public:
         if (camera != camera_) setSource(camera);
         if (!isMuted_ && (!hasMet_ || other != other_)) setPartner(other);
     }
-    [[gnu::always_inline]] void add(const SmallImpact& impact) {
+    void add(const SmallImpact& impact) {
         if (isMuted_ || modeCount_ != 1) [[unlikely]]
             return addModesOf(impact);
         sound(modes_[0], impact, amplitudeOf(impact));
