@@ -224,7 +224,7 @@ double tickMicroseconds(double releasedAfter = HUGE_VAL) {
     pthread_getcpuclockid(pthread_self(), &mine);
     const double before = microsecondsOf(mine);
     std::atomic<bool> isOver{false};
-    std::thread other{[&] {
+    std::jthread other{[&] {
         // Asleep, since the system lets one who wakes run before those who have used up their share.
         while (!isOver && microsecondsOf(mine) - before < releasedAfter)
             std::this_thread::sleep_for(std::chrono::microseconds{50});
@@ -233,7 +233,6 @@ double tickMicroseconds(double releasedAfter = HUGE_VAL) {
     host.plugin->takes().tick();
     const double took = microsecondsOf(mine) - before;
     isOver = true;
-    other.join();
     return took;
 }
 
