@@ -24,8 +24,8 @@ void ThreadDriver::run() {
         // a thread that draws a world too slow for real time waits a step or two, not until it has caught up
         session_.advance([&](auto) { return steadyNs() - begin <= mostHold && !isOver(); });
         const std::int64_t now = steadyNs(), left = session_.world().nextStepNs() - now;
-        std::int64_t pause = std::clamp(left + poll, poll, stepNs_); // by then the block has been rendered
-        if (left > 2 * stepNs_) pause = 4 * poll;                    // the first block may come at any time
+        std::int64_t pause = std::max(left, std::int64_t{0}) + poll; // by then the block is rendered
+        if (left > longestBlock) pause = 4 * poll;                   // the first block may come at any time
         if (session_.pulse().isStill(now)) pause = stepNs_;
         std::this_thread::sleep_for(std::chrono::nanoseconds{std::max(pause, (now - begin) / 8)});
     }

@@ -19,7 +19,7 @@ public:
     ThreadDriver& operator=(const ThreadDriver&) = delete;
 
 private:
-    static constexpr std::int64_t poll = 250'000, mostHold = 20'000'000; // ns; poll: for a block that is late
+    static constexpr std::int64_t poll = 250'000, mostHold = 20'000'000, longestBlock = 500'000'000; // ns
     void run();
     bool isOver() const noexcept { return isDestroyed_ || (ends_ != nullptr && *ends_); }
 
