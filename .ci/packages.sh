@@ -58,7 +58,7 @@ physvib_apply_packages="lilv-utils ecasound python3"
 physvib_daw_packages="qtractor muse openbox xdotool imagemagick xvfb jackd2 lv2-dev libasound2-dev libqt5svg5 sndfile-programs gcc python3-numpy"
 physvib_validator_packages="lv2-dev sordi"
 # Of the library alone (preset "library"), for Tests/Benchmarks.
-physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libeigen3-dev libhwy-dev"
+physvib_library_packages="g++ cmake ninja-build nlohmann-json3-dev libbox2d-dev libhwy-dev"
 # Of Tests/Osc/run.sh alone.
 physvib_osc_packages="jackd2 jack-example-tools liblo-tools puredata-core python3"
 # Of Tests/arm64.sh and Tests/windows.sh alone: compilers, what runs their programs, libraries that are headers only.

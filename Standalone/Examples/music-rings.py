@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 """A song shared at one table: its beats on the rings of four friends, while others hear it.
 
     PLAYER=aplay music-rings.py song.wav --device JACK:system [further options of physvib play]

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 """What the applications beside it share: physvib play of a scene where nothing happens, which takes messages and answers queries."""
 import json
 import os

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 """A presentation's time, felt by the hand that holds the presenter: one enchanter on it, no glance at a clock.
 
     presentation-timer.py 20 10,5,1 --device JACK:system [further options of physvib play]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 """Which of two vibrations is stronger? Trials and data by PsychoPy, vibration by physvib play, answers in the terminal: no window.
 
     psychopy-strength.py P01 strength 10 --device JACK:system [further options of physvib play]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 """Turn-by-turn cues on four enchanters: what a navigation program says becomes a path that one feels.
 
     navigation | turn-by-turn.py --device JACK:system [further options of physvib play]

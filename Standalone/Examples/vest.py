@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT
 """Motors that listen to avatar parameters, as head-pat straps and home-made vests for VRChat do, follow the hits of PhysVib.
 
     physvib play shake-the-box --device JACK:system --osc-to 127.0.0.1:9010 &

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-# GPL-3.0-or-later for what links JUCE or liblo (Host, Plugin, Standalone but its page and physvib-render, and their tests), MIT for the rest.
+# GPL-3.0-or-later for what links JUCE or liblo (Host, Plugin, Standalone but its page, examples and physvib-render, and their tests), MIT for the rest.
 file(GLOB_RECURSE files ${ROOT}/Source/* ${ROOT}/Plugin/* ${ROOT}/Standalone/* ${ROOT}/Firmware/* ${ROOT}/Tests/*)
 set(bad "")
 foreach(file ${files})
@@ -7,7 +7,7 @@ foreach(file ${files})
         continue()
     endif()
     set(licence "MIT")
-    if(file MATCHES "/(Host|Plugin|Standalone|Calls|CommandLine|Tests/Live|Board|Realtime|Mixer|Studies|Hostile|Benchmarks|Osc|Sweep|System)/" AND NOT file MATCHES "/Standalone/(Render|Web)/")
+    if(file MATCHES "/(Host|Plugin|Standalone|Calls|CommandLine|Tests/Live|Board|Realtime|Mixer|Studies|Hostile|Benchmarks|Osc|Sweep|System)/" AND NOT file MATCHES "/Standalone/(Examples|Render|Web)/")
         set(licence "GPL-3.0-or-later")
     endif()
     file(STRINGS ${file} head LIMIT_COUNT 3)
