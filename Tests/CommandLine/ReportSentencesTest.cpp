@@ -198,7 +198,7 @@ std::vector<Sentence> sentences() {
          "together; "
          "intervals are Student's t and the error of these widths",
          of(quest, 3), of(quest, 1)},
-        {", 95 % intervals over participants, Wilson's of as many people where all chose alike.",
+        {", 95 % intervals over participants, Wilson's of as many people where all chose one or none did. ",
          of(fits, 3, set("choice", "model")), of(fits, 3)},
         {"95 % intervals over trials, Wilson's", of(fits, 1), of(fits, 3)},
         {"Mean scores in late, 95 % intervals over participants.", of(twice, 3, {}, true), of(methods, 3)},
