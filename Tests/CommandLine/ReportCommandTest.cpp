@@ -152,11 +152,18 @@ TEST_F(Report, PlacesBeyondTheEdgesHaveErrorsAndWhoIsInTwoGroupsIsNamed) {
                   .exitCode,
               0);
     EXPECT_FALSE(has(page(), "lie outside 0 to 1") || has(page(), "Groups: "));
+    ASSERT_EQ(call("report t.csv --out out --columns "
+                   "participant=who,target_x=tx:0:710,target_y=ty:0:95,x=px:0:420,y=py:0:100")
+                  .exitCode,
+              0);
+    EXPECT_TRUE(has(page(), "12 of 24 places lie beyond the edges that --columns names, so"));
+    EXPECT_TRUE(has(page(), "Places are shares of the named edges") && !has(page(), "own units"));
 }
 
 TEST_F(Report, APlanHasTheExclusionsAndCorrections) {
     const std::string grids = call("study plan phantom-grids --participants 4 --out plan.txt").out;
     std::filesystem::remove(folder_ / "analysis.R");
+    EXPECT_TRUE(has(grids, "\nMeasures\n- percent correct: each participant's share of right answers"));
     const std::string steps = call("study plan level-steps --participants 4 --out plan.txt").out;
     for (const char* words : {"fewer than two reversals", "at an end of the levels (half or more of"}) {
         EXPECT_TRUE(has(steps, words)) << words << steps;
@@ -344,7 +351,7 @@ TEST_F(Report, LevelsThatAnswersChoseTellNoSlope) {
 
 TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
     if (!hasProgram("Rscript")) GTEST_SKIP() << "Rscript (Debian: r-base-core) is not here";
-    const std::string kept = "Protocol, number of participants and tests are as planned.";
+    const std::string kept = "Protocol, number of participants and titles of tests are as planned.";
     for (const std::string name : {"phantom-grids", "eight-methods", "magnitudes"}) {
         const auto planned = call("study plan " + name + " --participants 4 --out plan.txt");
         ASSERT_EQ(planned.exitCode, 0) << name;

@@ -198,9 +198,10 @@ std::vector<Sentence> sentences() {
          "together; "
          "intervals are Student's t and the error of these widths",
          of(quest, 3), of(quest, 1)},
-        {", 95 % intervals over participants, Wilson's of as many people where all chose alike.",
+        {", 95 % intervals over participants, Wilson's of as many people where all chose one or none did. ",
          of(fits, 3, set("choice", "model")), of(fits, 3)},
         {"95 % intervals over trials, Wilson's", of(fits, 1), of(fits, 3)},
+        {"Chance: 1 of the 2 alternatives offered or given.", of(fits, 3), of(methods, 3)},
         {"Mean scores in late, 95 % intervals over participants.", of(twice, 3, {}, true), of(methods, 3)},
         {"Mean of the participants' shares in which, 95", of(twice, 3, {}, true), of(fits, 3)},
         {"without a score of", of(twice, 3, unscored, true), of(twice, 3, {}, true)},

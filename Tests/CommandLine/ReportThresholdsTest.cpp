@@ -61,7 +61,7 @@ TEST_F(ReportThresholds, OfTrainingsAreNotPlanned) {
         std::filesystem::remove(folder_ / "analysis.R");
         const auto outcome = call("study plan study.json --participants 4 --out plan.txt");
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-        for (const char* words : {"Measures", "- functions of levels"})
+        for (const char* words : {"- thresholds of", "- functions of levels"})
             EXPECT_EQ(outcome.out.find(words), std::string::npos) << outcome.out;
     }
 }

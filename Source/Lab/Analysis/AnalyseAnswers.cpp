@@ -19,7 +19,9 @@ void tell(std::ostream& out, const ChoiceSummary& summary) {
     out << cleanLine(summary.condition) << ':';
     for (const ChoiceShare& share : summary.shares)
         out << (&share == &summary.shares.front() ? " " : ", ") << cleanLine(share.alternative) << ' '
-            << percent(share.share) << " % (" << percent(share.least) << " to " << percent(share.most) << ')';
+            << percent(share.share) << " % ("
+            << (share.least < share.most ? percent(share.least) + " to " + percent(share.most) : "of each")
+            << ')';
     out << ", " << counted(summary.trials, "trial") << " of " << counted(summary.participants, "participant");
     out << '\n';
 }
@@ -84,8 +86,10 @@ void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
         tell(out, summary);
         for (const auto& share : summary.shares)
             table.row(summary.condition, share.alternative, std::size_t{share.hits},
-                      std::size_t{summary.trials}, 100.0 * share.share, 100.0 * share.least,
-                      100.0 * share.most, summary.participants, 100.0 * share.median);
+                      std::size_t{summary.trials}, 100.0 * share.share,
+                      share.least < share.most ? std::optional{100.0 * share.least} : std::nullopt,
+                      share.least < share.most ? std::optional{100.0 * share.most} : std::nullopt,
+                      summary.participants, 100.0 * share.median);
     }
     out << "(... to ...): 95 % interval over "
         << (summaries.front().participants > 1 ? "participants" + alikeWords(summaries) + "\n"

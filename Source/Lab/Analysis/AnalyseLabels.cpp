@@ -74,7 +74,8 @@ void tell(std::ostream& out, const std::string& indent, const ConfusionMatrix& m
         << indent << "percent correct: " << correctWords(matrix, people) << '\n'
         << indent << "IT: " << bits(it.bits) << " of " << bits(it.mostBits) << '\n';
     if (it.canBeCorrected())
-        out << indent << "corrected IT: " << bits(it.correctedBits()) << '\n';
+        out << indent << "corrected IT: " << bits(it.correctedBits())
+            << ", less Miller's bias, (cells - rows - columns + 1) / (2 N ln 2) of those with answers\n";
     else
         out << indent << "IT bound: at least " << bits(it.leastBits) << " (Fano)\n";
     out << indent << (it.canBeCorrected() ? "2^corrected IT: " : "2^IT: ")

@@ -72,6 +72,19 @@ std::vector<std::string> testsIn(const std::string& table) {
     return tests;
 }
 
+std::vector<std::string> notMadeIn(const std::string& table) {
+    std::vector<std::string> lines;
+    const auto read = readCsvTable(table, testsTable);
+    const auto test = read.value.column("test"), effect = read.value.column("effect"),
+               p = read.value.column("p"), note = read.value.column("note");
+    for (const CsvRow& row : read.value.rows)
+        if (test && effect && p && note && row.cells[*p].empty() && row.cells[*effect] != "factors" &&
+            row.cells[*effect] != "left out" && row.cells[*effect] != "hidden reference")
+            lines.push_back("Not made: " + row.cells[*test] + ", " + row.cells[*effect] + ": " +
+                            row.cells[*note]);
+    return lines;
+}
+
 std::string keptScriptFault(const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::exists(path, ignored)) return {};

@@ -38,6 +38,9 @@ std::string analysisNotebook(const std::string& study);
 /// Names of the tests in testsTable that have a p, each once. Any thread (allocates).
 std::vector<std::string> testsIn(const std::string& table);
 
+/// Of the same table each effect that was not tested, and why. Any thread.
+std::vector<std::string> notMadeIn(const std::string& table);
+
 /// Why the file there must not be replaced by a new script or notebook: it is none of ours, or was edited.
 /// Empty if it may be. Message thread only.
 std::string keptScriptFault(const std::filesystem::path& path);

@@ -7,6 +7,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFields.h"
 #include "Lab/Files/ProtocolFile.h"
+#include "Lab/Study/StudyPlan.h"
 #include "Scene/ActuatorFile.h"
 #include "Scene/LayoutFile.h"
 #include <algorithm>
@@ -280,7 +281,12 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
         words += "; felt as often as one likes";
     if (session.breakBeforeSeconds > 0.0)
         words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";
-    if (session.breakEvery > 0 && session.breakSeconds > 0.0)
+    const bool hasBreaks =
+        std::ranges::any_of(protocol.conditions, [&](const ConditionPlan& condition) { // none after the last
+                                                                                       // trial
+            return mostTrialsOf(session, stimuliOf(condition).size()) > session.breakEvery;
+        });
+    if (session.breakEvery > 0 && session.breakSeconds > 0.0 && hasBreaks)
         words += "; a break of " + secondsWords(session.breakSeconds) + " every " +
                  std::to_string(session.breakEvery) + " trials";
     return words;

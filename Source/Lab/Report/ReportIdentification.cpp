@@ -216,14 +216,18 @@ void tellPlaces(ReportBuilder& report) {
             const double at = parseNumber<double>(cell(row, axis)).value_or(0.0);
             return at < 0.0 || at > 1.0;
         };
+        const bool hasEdges = std::ranges::any_of(
+            report.trials.columns, [](const ColumnName& one) { return one.range.has_value(); });
         const auto outside = std::ranges::count_if(
             report.trials.all.rows, [&](const CsvRow& row) { return lies(row, "x") || lies(row, "y"); });
         tellPlaceErrors(report);
         return report.page.note(
             std::to_string(outside) + " of " + counted(report.trials.all.rows.size(), "place") +
-            " lie outside 0 to 1, so nothing is shown of territories and grids, which need all within the "
-            "field's edges: name these (--columns x=COLUMN:LEFT:RIGHT,y=COLUMN:TOP:BOTTOM, targets "
-            "likewise)");
+            (hasEdges ? " lie beyond the edges that --columns names" : " lie outside 0 to 1") +
+            ", so nothing is shown of territories and grids, which need all within the field's edges" +
+            (hasEdges
+                 ? ""
+                 : ": name these (--columns x=COLUMN:LEFT:RIGHT,y=COLUMN:TOP:BOTTOM, targets likewise)"));
     }
     report.page.heading("Perceived places");
     if (!data) return report.page.note(data.error);
@@ -262,8 +266,15 @@ void tellPlaces(ReportBuilder& report) {
 
 void tellPlaceErrors(ReportBuilder& report) {
     report.page.heading("Perceived places");
+    const bool hasEdges = std::ranges::any_of(report.trials.columns,
+                                              [](const ColumnName& one) { return one.range.has_value(); });
     report.page.paragraph(
-        "Places in the table's own units. Constant error: mean of answered minus true place. "
+        std::string{
+            hasEdges
+                ? "Places are shares of the named edges, x of the width and y of the height: where these "
+                  "differ, so do the units of x and y in distances and variable errors. "
+                : "Places in the table's own units. "} +
+        "Constant error: mean of answered minus true place. "
         "Variable error: standard deviation around a target's own mean, both axes together. Gain: slope of "
         "answered over true places; 1 is neither drawn together nor apart. Means over participants of their "
         "means over targets; each target counts as much.");

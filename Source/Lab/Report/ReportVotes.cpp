@@ -66,7 +66,8 @@ void tellShares(ReportBuilder& report, const SessionOfChoices& session) {
         inSession((showsMedians(report) ? "Median" : "Mean") + std::string{" of the participants' shares"},
                   session.name) +
             report.asThesis(showsMedians(report) ? "Fig. 5.8" : "Fig. 5.8, which has medians") +
-            shareIntervals(report, summaries) + ".");
+            shareIntervals(report, summaries) + ". Chance: 1 of the " +
+            std::to_string(summaries.front().shares.size()) + " alternatives offered or given.");
     if (hasFactors) tellTwoFactors(report, session);
 }
 

@@ -136,6 +136,9 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
             report.people() < 2 || made.files.contains(testsTable) ? std::optional{made.tests} : std::nullopt;
         const auto compared = comparedWithPlan(trials.facts.plan, "plan", trials, tests);
         report.page.list(compared.value);
+        if (made.files.contains(testsTable))
+            if (const auto lines = notMadeIn(made.files.at(testsTable)); !lines.empty())
+                report.page.list(lines);
     }
     tellProvenance(report);
     made.functions = report.functions;
@@ -325,6 +328,17 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
             "pairs of stimuli: means over participants of each one's mean of a pair, and a map of them by "
             "classical scaling (similarity.csv, mds.csv): scales whose names begin with dis or diff are "
             "distances, others what they lack of 100, of points of their number");
+    for (const auto& [kind, words] : std::initializer_list<std::pair<AnswerKind, const char*>>{
+             {AnswerKind::label,
+              "percent correct: each participant's share of right answers; information transfer of "
+              "all trials together, from 5 trials per cell on less Miller's bias"},
+             {AnswerKind::place,
+              "places: each participant's means of what they answered, by axis, and the standard "
+              "deviation around them (variable error)"},
+             {AnswerKind::choice, "choices: each participant's share of an alternative"},
+             {AnswerKind::scores, "scales: each participant's mean of each"}})
+        if (has([&](const SessionPlan& s) { return s.answer() == kind && !s.adaptedAlternative(); }))
+            measures.emplace_back(words);
     if (!measures.empty()) text += listOf("Measures", measures);
     if (has([](const SessionPlan& s) { return s.adaptedAlternative() != nullptr; }))
         exclusions.emplace_back(
@@ -398,7 +412,7 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     }
     for (const std::string& test : planned) sentences.push_back("Planned, not done: " + test);
     if (sentences.size() == 1)
-        sentences.emplace_back("Protocol, number of participants and tests are as planned.");
+        sentences.emplace_back("Protocol, number of participants and titles of tests are as planned.");
     return sentences;
 }
 

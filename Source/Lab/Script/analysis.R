@@ -196,7 +196,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   normality <- if (ncol(cells) > 2) "residuals normality" else paste0("normality of the ", if (ncol(cells) == 2) "differences" else "participants' means", of)
   attempt(test, normality, {
     left <- as.matrix(lm.fit(x, cells)$residuals)
-    shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n, note = if (length(left) > n) paste("of", length(left), "residuals") else "") }
+    shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n, note = if (length(left) > n) paste("of", length(left), "residuals of people and cells") else "") }
     # of two cells the differences: what is left of both of them is the same with two signs
     shapiro(normality, if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
     if (length(between) > 0 && ncol(cells) > 1) shapiro(paste0("normality of the participants' means", of), rowMeans(left))
@@ -211,24 +211,24 @@ mixed <- function(test, file, measure, within, between, where) {
   d <- aggregate(y ~ ., rows.of(file, measure, factors, where, between), mean)
   own <- names(d)[-c(1, ncol(d))]
   x <- model.matrix(as.formula(paste("~", paste(own, collapse = "*"))), d, lapply(d[own], function(f) "contr.sum"))
-  terms <- attr(x, "assign"); labels <- unlist(lapply(seq_along(own), function(m) combn(factors, m, paste, collapse = ":")))
+  terms <- attr(x, "assign"); effects <- unlist(lapply(seq_along(own), function(m) combn(seq_along(own), m, simplify = FALSE)), recursive = FALSE)
   several <- unlist(lapply(seq_len(length(within) - 1), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE) # all of them are what is left
   random <- function(id, names) c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), ""))
   parts <- setNames(random("participant", within), random("id", sprintf("w%d", seq_along(within))))
   cat("  mixed model: by maximum likelihood, each effect by the likelihood ratio of the models with and without it, contrasts that sum to 0, random ", paste0("(1 | ", parts, ")", collapse = " + "), "\n", sep = "")
   model <- as.formula(paste("y ~ 0 + x +", paste0("(1 | ", names(parts), ")", collapse = " + ")))
-  fit <- function(x, which) {
+  fit <- function(x) {
     m <- suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE)); variances <- vapply(lme4::VarCorr(m), `[`, 0, 1)
-    zero <- names(variances)[variances <= 1e-8 * sigma(m)^2]
-    if ("id" %in% zero) stop("in the model ", which, " participants' variance is estimated as 0, so cells would count as people")
-    list(l = as.numeric(logLik(m)), zero = parts[zero], failed = any(grepl("converge", unlist(m@optinfo$conv$lme4$messages))))
+    list(l = as.numeric(logLik(m)), zero = parts[names(variances)[variances <= 1e-4 * sigma(m)^2]], failed = any(grepl("converge", unlist(m@optinfo$conv$lme4$messages))))
   }
-  all <- fit(x, "with all effects"); singular <- function(zero, which) if (length(zero) > 0) paste("variance of", paste(zero, collapse = " and of "), "estimated as 0 in the model", which)
-  for (t in seq_along(labels)) attempt(test, paste(labels[t], "mixed model"), {
-    without <- paste("without", labels[t]); less <- fit(x[, terms != t, drop = FALSE], without); chi <- max(0, 2 * (all$l - less$l))
-    result(test, paste(labels[t], "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t),
+  all <- fit(x); singular <- function(zero, which) if (length(zero) > 0) paste("variance of", paste(zero, collapse = " and of "), "estimated as 0 in the model", which)
+  for (t in seq_along(effects)) { label <- paste(factors[effects[[t]]], collapse = ":"); attempt(test, paste(label, "mixed model"), {
+    without <- paste("without", label); less <- fit(x[, terms != t, drop = FALSE]); chi <- max(0, 2 * (all$l - less$l))
+    error <- paste(c("id", own[intersect(effects[[t]], seq_along(within))]), collapse = ":") # the highest effect within people has the residual
+    if (error %in% names(c(all$zero, less$zero))) stop("variance of ", parts[[error]], ", its error, is estimated as 0 in the model ", if (error %in% names(all$zero)) "with all effects" else without, ", so cells would count as people")
+    result(test, paste(label, "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t),
            note = paste(c("p too small where people are few", if (setequal(all$zero, less$zero)) singular(all$zero, "with it and in that without") else c(singular(all$zero, "with all effects"), singular(less$zero, without)), if (all$failed || less$failed) "did not converge"), collapse = ", "))
-  })
+  }) }
 }
 # What a level's value is beside other factors.
 tell.levels <- function(factors) if (length(factors) > 1) cat("  a participant's value of a level is the mean over those of the other factors within people, each of which counts alike, however many trials it has\n", sep = "")
@@ -310,6 +310,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   d <- d[d$choice != "", ]
   words <- alternatives.of(d); k <- length(words)
   if (k < 2) stop(paste("expected two alternatives or more, found", k))
+  cat("  chance is ", format(100 / k, digits = 3), " %, of ", k, " alternatives, ", if (any(parts.offered(d) != "")) "which were offered" else "the answers that there are", ": ", paste(words, collapse = ", "), "\n", sep = "")
   there <- union(everybody, d$participant); gone <- character()
   if (is.null(factors)) { # the same rows as where levels are compared
     lone <- lone.levels(d, c("group", "condition", "stimulus")); gone <- lone$gone
@@ -347,9 +348,9 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   }
 }) }
 alternatives.of <- function(d) {
-  parts <- if ("parts" %in% names(d)) unlist(strsplit(d$parts, "|", fixed = TRUE))
-  sort(setdiff(unique(c(d$choice, parts)), ""), method = "radix")
+  sort(setdiff(unique(c(d$choice, parts.offered(d))), ""), method = "radix")
 }
+parts.offered <- function(d) if ("parts" %in% names(d)) unlist(strsplit(d$parts, "|", fixed = TRUE))
 
 # Names of the factors in a column: words (pair=wood), the letters of the thesis' methods, two parts that are crossed (PHONE-3x3, index_60Hz), or the column.
 factor.names <- function(column, d) {
@@ -441,6 +442,19 @@ alike.for <- function(d, design) {
   }
   list(d = d, design = design)
 }
+# People who lack a level may leave a group one person, who would count as much as all of another: such a group is left out, or the factor is not tested.
+lone.groups <- function(d, design) {
+  cell <- do.call(paste, c(list(character(nrow(d))), lapply(design$within, function(f) level(d, f)), sep = "\r")); n <- tapply(cell, d$participant, function(own) length(unique(own)))
+  notes <- character(); before <- d$participant
+  for (f in design$between) {
+    own <- level(d, f); if (f == "group") own[d$participant %in% groupless(d)] <- NA
+    sizes <- tapply(d$participant, own, function(who) sum(n[unique(who)] == length(unique(cell)))); lone <- names(sizes)[sizes == 1]; words <- paste0(f, ": ", paste(names(sizes), "n =", sizes, collapse = ", "), " with all levels: ")
+    if (sum(sizes > 1) < 2) { notes <- c(notes, paste0(words, "not tested, and no factor of other tests")); design$between <- setdiff(design$between, f) }
+    else if (length(lone) > 0) { notes <- c(notes, paste0(words, paste(lone, collapse = ", "), " left out")); d <- d[!(own %in% lone), ] }
+  }
+  design$notes <- c(design$notes, notes)
+  list(d = d, design = design, gone = setdiff(before, d$participant))
+}
 # The model that a measure and its factors call for. Scores: analysis of variance, pairs by t. Ranks: Friedman's or Kruskal and Wallis' test, pairs by
 # ranks. Magnitudes: ranks of one factor; of several the analysis of variance of their logarithms. No ordinal mixed model of trials: with an intercept for
 # each person alone, 12 of 60 studies without an effect have one at 0.05 (Friedman's test: 4), and with one for each person's level it takes half a minute.
@@ -455,15 +469,16 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   if (length(unique(d$participant)) < 2) return(invisible())
   below <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) < 0) else 0
   if (below > 0) { kind <- "scores"; what <- sub("magnitudes", "values", what) }
-  zeros <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) == 0) else 0
+  zeros <- if (kind == "magnitudes") d[as.numeric(d[[measure]]) == 0, ]
   if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
   lone <- lone.levels(d, columns); d <- lone$d
   design <- design.of(d, columns); design$notes <- c(lone$notes, design$notes)
   for (f in over) if ((k <- length(unique(level(d, f)))) > 1) { design$over <- c(design$over, f); design$notes <- c(design$notes, paste0(f, " (", k, "): averaged over, level by level")) }
   if (below > 0) design$notes <- c(design$notes, paste(below, if (below == 1) "value is" else "values are", "below 0, so these are no magnitudes: compared as they are (a column task, with adjust, tells of levels that were set)"))
   if (kind == "magnitudes" && length(unique(d$level_db)) > 1) { design$over <- c(design$over, "level_db"); design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over, level by level")) }
-  if (zeros > 0) design$notes <- c(design$notes, paste(zeros, if (zeros == 1) "magnitude" else "magnitudes", "of 0, which has no logarithm, left out"))
-  alike <- alike.for(d, design); d <- alike$d; design <- alike$design; factors <- c(design$within, design$between)
+  if (NROW(zeros) > 0) design$notes <- c(design$notes, paste0(nrow(zeros), if (nrow(zeros) == 1) " magnitude" else " magnitudes", " of 0, which has no logarithm, left out: ",
+    paste(unique(do.call(paste, zeros[intersect(c("participant", "condition", "stimulus", "level_db"), names(zeros))])), collapse = ", ")))
+  alike <- alike.for(d, design); groups <- lone.groups(alike$d, alike$design); d <- groups$d; design <- groups$design; factors <- c(design$within, design$between)
   if (length(design$notes) > 0) cat(what, "\n", sep = "")
   for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over.*", "not tested", note))
   if (length(factors) == 0) return(invisible())
@@ -472,7 +487,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
     own <- do.call(paste, c(list(d$participant), lapply(c(factors, design$over), function(f) level(d, f)), sep = "\r"))
     d[[measure]] <- ave(y, own); d <- d[!duplicated(own), ]
   }
-  attr(d, "absent") <- setdiff(all, c(d$participant, lone$gone))
+  attr(d, "absent") <- setdiff(all, c(d$participant, lone$gone, groups$gone))
   if (kind == "magnitudes" && length(factors) > 1) kind <- "scores"
   few <- function(some) Filter(function(f) length(unique(level(d, f))) <= most.levels, some)
   name <- paste(what, "by", paste(factors, collapse = ", "))

@@ -109,6 +109,11 @@ ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uin
         share.least = alike.least, share.most = alike.most;
         return share;
     }
+    if (moments.halfInterval() < 1e-12) { // the same of all, but neither nobody's nor everybody's: no
+                                          // interval
+        share.least = share.most = share.share;
+        return share;
+    }
     share.least = std::max(0.0, moments.mean - moments.halfInterval());
     share.most = std::min(1.0, moments.mean + moments.halfInterval());
     return share;
@@ -195,7 +200,7 @@ std::string alikeWords(const std::vector<ChoiceSummary>& summaries) {
     for (const ChoiceSummary& one : summaries)
         if (one.participants > 1 &&
             std::ranges::any_of(one.shares, [&](const auto& s) { return one.areAlike(s); }))
-            return ", Wilson's of as many people where all chose alike";
+            return ", Wilson's of as many people where all chose one or none did";
     return {};
 }
 

@@ -54,7 +54,7 @@ for (n in c(2, 3, 4, 12, 49, 50)) for (levels in list(2, 3, 6, c(2, 3), c(2, 2, 
     same(paste("Mauchly p, n", n), line(ours, "a sphericity")$p, mauchly.test(fit, X = ~ 1)$p.value)
     left <- aov(y ~ a + participant, m)$residuals
     same(paste("normality, n", n), line(ours, "residuals normality")$p, shapiro.test(left)$p.value)
-    if (line(ours, "residuals normality")$note != paste("of", length(left), "residuals")) fault("the number of residuals is not told")
+    if (line(ours, "residuals normality")$note != paste("of", length(left), "residuals of people and cells")) fault("the number of residuals is not told")
   }
 }
 
@@ -103,6 +103,7 @@ d <- expand.grid(trial = 1:4, condition = c("c1", "c2"), participant = c("NA", "
 d$choice <- sample(c("A", "B", "C"), nrow(d), TRUE)
 rows(d)
 ours <- told(choices("t", "trials.csv"))
+if (!any(grepl("chance is 33.3 %, of 3 alternatives, the answers that there are: A, B, C", capture.output(choices("t", "trials.csv"))))) fault("chance has no value")
 for (word in c("A", "B", "C")) same(paste(word, "of three"), line(ours, paste0(word, ", all"))$p,
   exact.p(as.vector(tapply(d$choice == word, d$participant, function(x) (3 * sum(x) - length(x)) / length(x)))))
 # Unanimous: exact binomials of people, though the other alternative was only there to choose.
@@ -172,11 +173,11 @@ for (sizes in list(c(6, 6), c(4, 7), c(5, 3, 6))) {
   same(paste(words, "ranks"), line(told(pairs.test("t", "trials.csv", "y", between = "group", by = "ranks")), "group: g1 - g2")$p,
        exact.p(all[group == "g1"], all[group == "g2"]))
 }
-# Where people do not differ beyond their trials, a mixed model would count cells as people: it is withheld.
+# Where people do not differ beyond their trials, groups would be tested against cells: that alone is withheld.
 if (requireNamespace("lme4", quietly = TRUE)) {
-  d <- expand.grid(condition = c("x", "y", "z"), participant = person(8), stringsAsFactors = FALSE); d$y <- rnorm(nrow(d)); d$y <- d$y - ave(d$y, d$participant); rows(d[-1, ])
-  ours <- told(anova.test("t", "trials.csv", "y", "condition"))
-  if (!grepl("^in the model with all effects participants' variance is estimated as 0", line(ours, "mixed model")$note) || any(ours$effect == "condition mixed model")) fault("a model of cells as people is told")
+  d <- expand.grid(condition = c("x", "y", "z"), participant = person(8), stringsAsFactors = FALSE); d$y <- rnorm(nrow(d)); d$y <- d$y - ave(d$y, d$participant); d$group <- ifelse(d$participant < "05", "g", "h"); rows(d[-1, ])
+  ours <- told(anova.test("t", "trials.csv", "y", "condition", between = "group"))
+  if (!grepl("^variance of participant, its error, is estimated as 0 in the model with all effects, so cells would count as people", line(ours, "group mixed model")$note) || is.na(line(ours, "condition mixed model")$p)) fault("a model of cells as people is told, or more is withheld")
 }
 # Magnitudes are averaged as logarithms, over levels in dB with a word.
 d <- expand.grid(level_db = c(0, 6), participant = person(8), stringsAsFactors = FALSE); d$group <- ifelse(as.integer(d$participant) %% 2 == 0, "a", "b"); d$value <- round(exp(rnorm(nrow(d), 2)), 2)
@@ -184,7 +185,7 @@ rows(d)
 ours <- told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes")); logs <- tapply(log10(d$value), d$participant, mean); in.a <- tapply(d$group == "a", d$participant, all)
 same("logarithms by ranks", line(ours, "group: a - b")$p, exact.p(logs[in.a], logs[!in.a]))
 d$value[3] <- 0; rows(d)
-if (!any(grepl("1 magnitude of 0", told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes"))$note))) fault("a magnitude of 0 goes without a word")
+if (!any(grepl("1 magnitude of 0, which has no logarithm, left out: 02 0$", told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes"))$note))) fault("a magnitude of 0 goes without a word")
 if (!any(grepl("levels (2, column level_db of trials.csv): averaged over", ours$note, fixed = TRUE))) fault("levels that are averaged over are not told")
 # People who lack levels, in a mixed model of all: the likelihood ratios of lmer's own formulas, with factors within and between.
 if (requireNamespace("lme4", quietly = TRUE)) {
@@ -402,6 +403,10 @@ ours <- told(compare("y", table.of("trials.csv"), "y"))
 if (any(grepl("solo", ours$effect)) || !any(grepl("solo is of 01 alone", ours$note)) || line(ours, "group: g - h")$n != 8) fault("a group of one person is tested")
 rows(d[d$group != "h", ]); ours <- told(compare("y", table.of("trials.csv"), "y"))
 if (any(grepl("group", ours$effect)) || !any(grepl("group: solo of one participant alone: not tested", ours$note)) || line(ours, "condition: x - y")$n != 4) fault("two groups, of which one is of one person, are tested")
+# Nor is one of which others lack a level: each person counts alike then, and of three groups it is left out.
+lost <- d[!(d$participant %in% c("03", "04") & d$condition == "y") & d$group != "solo", ]; lost$group[lost$participant > "07"] <- "k"
+for (isTwo in c(FALSE, TRUE)) { if (!isTwo) rows(lost); ours <- told(compare("y", table.of("trials.csv"), "y")); rows(lost[lost$group != "k", ])
+  if (any(grepl("- g|g -", ours$effect)) || !any(grepl(if (isTwo) "group: g n = 1, h n = 3 with all levels: not tested" else "group: g n = 1, h n = 3, k n = 2 with all levels: g left out", ours$note)) || line(ours, "condition: x - y")$n != (if (isTwo) 4 else 5) || any(grepl("counts alike", ours$note)) == isTwo) fault("a group of whom one person is left is tested") }
 d <- d[d$group != "solo", ]; d$group[d$participant == "07" & d$trial == 2] <- "g"; rows(d); ours <- told(compare("y", table.of("trials.csv"), "y"))
 if (line(ours, "group: g - h")$n != 7 || !any(grepl("^07: group not known, or several", ours$note))) fault("who is in two groups takes the test of groups away")
 d$choice <- sample(c("A", "B"), nrow(d), TRUE); rows(d); if (line(told(choices("t", "trials.csv")), "group=h")$n != 4) fault("who is in two groups is in both")
@@ -450,11 +455,11 @@ if (any(grepl("NA -|- NA$", ours$effect)) || !any(grepl("01, 02: group not known
 if (requireNamespace("lme4", quietly = TRUE)) {
   d <- expand.grid(condition = c("x", "y", "z"), stimulus = c("s", "t"), participant = person(9), stringsAsFactors = FALSE); own <- rnorm(9)[as.integer(d$participant)]; e <- residuals(lm(rnorm(54) ~ participant * condition + participant * stimulus, d)); d$y <- 3 * own + e; rows(d[-1, ])
   note <- line(told(anova.test("t", "trials.csv", "y", c("condition", "stimulus"))), "condition mixed model")$note
-  if (!grepl("variance of participant:condition and of participant:stimulus estimated as 0 in the model with it and in that without", note)) fault("a singular model goes without a word:", note)
+  if (!startsWith(note, "variance of participant:condition, its error, is estimated as 0 in the model with all effects")) fault("a singular model goes without a word:", note)
   # Of one without the effect, that it was that one.
   d <- expand.grid(condition = c("x", "y", "z"), participant = person(8), stringsAsFactors = FALSE); d$y <- 9 * (d$condition == "z") + rep(c(-1, 1), each = 12) + residuals(lm(rnorm(24) ~ participant, d)); rows(d[-1, ])
   note <- line(told(anova.test("t", "trials.csv", "y", "condition")), "condition mixed model")$note
-  if (!startsWith(note, "in the model without condition participants' variance is estimated as 0")) fault("which model has no variance is not told:", note)
+  if (!grepl("variance of participant estimated as 0 in the model without condition", note)) fault("which model has no variance is not told:", note)
 }
 # People had two conditions; that nobody has an estimate of both makes no groups of them, beside all trials, or by a protocol that says so.
 d <- expand.grid(condition = c("x", "y"), participant = person(8), stringsAsFactors = FALSE); d$percent_correct <- rnorm(16); one <- d[d$condition == ifelse(as.integer(d$participant) < 4, "x", "y"), ]
