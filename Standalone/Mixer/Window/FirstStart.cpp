@@ -260,7 +260,9 @@ void FirstStart::show() {
     if (!isTest) {
         const bool hasChoice = choices_.size() > 1;
         say("Where are your actuators?",
-            (hasChoice ? "Play here tests each of them in turn, quietly at first. Nothing plays before."
+            (hasChoice ? choices_[static_cast<std::size_t>(chosen_)].isHeard
+                             ? "Play here begins at once, for ears. Nothing plays before."
+                             : "Play here tests each of them in turn, quietly at first. Nothing plays before."
                        : "No device was found. Plug one in, and choose it under Output.") +
                 juce::String{" Then drag a ball to throw it; Esc silences."});
         play_.setButtonText(hasChoice ? "Play here" : "Go on");
