@@ -47,10 +47,9 @@ TEST(Materials, AnUnknownNameIsAnsweredByThoseThereAre) {
     physvib_body made = body();
     for (const char* name : {"wood", "steel", ""}) { // wood is in the table, without a frequency
         EXPECT_EQ(physvib_material(name, &made), PHYSVIB_ERROR_ARGUMENT);
-        EXPECT_EQ(std::string{physvib_error()},
-                  "material: expected one that vibrates (concrete block, wooden board or steel plate), "
-                  "found \"" +
-                      std::string{name} + "\"");
+        const std::string why = physvib_error();
+        EXPECT_TRUE(why.starts_with("material: expected one that vibrates (concrete block, ")) << why;
+        EXPECT_TRUE(why.ends_with("), found \"" + std::string{name} + "\"")) << why;
     }
     EXPECT_EQ(made.frequency_hz, 0.0);
     EXPECT_EQ(physvib_material(nullptr, &made), PHYSVIB_ERROR_ARGUMENT);

@@ -88,7 +88,7 @@ TEST(EnchanterLayout, OneTwoAndThreeAreCentreSidesAndTriangle) {
 }
 
 TEST(EnchanterLayout, UnknownPresetLeavesTheLayoutUntouched) {
-    for (const std::string_view name : {"", "phone", "phone0", "phone5", "PHONE4", "phone4 ", "ring44"}) {
+    for (const std::string_view name : {"", "phone", "phone0", "phone65", "PHONE4", "phone4 ", "ring44"}) {
         EnchanterLayout layout = preset("ring2");
         EXPECT_FALSE(layoutPreset(name, layout)) << name;
         EXPECT_EQ(layout.count, 2) << name;
