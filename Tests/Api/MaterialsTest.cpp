@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Materials by name and single impacts, as a program in another language asks for them.
 #include "Core/NameNumbers.h"
+#include "Io/Text/NameList.h"
 #include "Scene/MaterialTable.h"
 #include "Support/SizedEvents.h"
 #include <array>
@@ -11,6 +12,7 @@
 #include <limits>
 #include <physvib/physvib.h>
 #include <string>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -45,11 +47,12 @@ TEST(Materials, SetHowABodyVibratesAndNothingElse) {
 
 TEST(Materials, AnUnknownNameIsAnsweredByThoseThereAre) {
     physvib_body made = body();
+    std::vector<std::string> names;
+    for (int i = 0; const char* name = physvib_material_name(i); ++i) names.emplace_back(name);
     for (const char* name : {"wood", "steel", ""}) { // wood is in the table, without a frequency
         EXPECT_EQ(physvib_material(name, &made), PHYSVIB_ERROR_ARGUMENT);
-        const std::string why = physvib_error();
-        EXPECT_TRUE(why.starts_with("material: expected one that vibrates (concrete block, ")) << why;
-        EXPECT_TRUE(why.ends_with("), found \"" + std::string{name} + "\"")) << why;
+        EXPECT_EQ(std::string{physvib_error()}, "material: expected one that vibrates (" +
+                                                    listed(names, " or ") + "), found \"" + name + "\"");
     }
     EXPECT_EQ(made.frequency_hz, 0.0);
     EXPECT_EQ(physvib_material(nullptr, &made), PHYSVIB_ERROR_ARGUMENT);

@@ -61,6 +61,9 @@ TEST_F(ReportThresholds, OfTrainingsAreNotPlanned) {
         std::filesystem::remove(folder_ / "analysis.R");
         const auto outcome = call("study plan study.json --participants 4 --out plan.txt");
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find("\nMeasures\n- scales: each participant's mean of each\n\n"),
+                  std::string::npos)
+            << outcome.out;
         for (const char* words : {"- thresholds of", "- functions of levels"})
             EXPECT_EQ(outcome.out.find(words), std::string::npos) << outcome.out;
     }

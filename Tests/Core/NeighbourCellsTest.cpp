@@ -23,8 +23,7 @@ EnchanterLayout layoutAt(const Places& places, double width = 1.0, double height
 Places ellipse(int count, double width, double height) {
     Places places;
     for (int k = 0; k < count; ++k) {
-        const double angle = 2 * std::numbers::pi * (k * 3 % count) / count; // not in order, if 3 is no
-                                                                             // divisor
+        const double angle = 2 * std::numbers::pi * (k * 3 % count) / count; // not in order
         places.push_back({0.5 + 0.5 * width * std::cos(angle), 0.5 + 0.5 * height * std::sin(angle)});
     }
     return places;

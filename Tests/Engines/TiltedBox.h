@@ -168,8 +168,7 @@ inline bool judge(const char* name, Engine& engine, int index, const Box& box) {
         paper.add(first, *event);
     }
     const double allowedMs = engine.isExact ? 0.001 : 0.1, allowedPart = engine.isExact ? 1e-5 : 0.02,
-                 allowedMetres = engine.isExact ? 1e-5 : 0.01; // engines look once per step: 2.4 m/s in 1/240
-                                                               // s
+                 allowedMetres = engine.isExact ? 1e-5 : 0.01; // a look a step: 2.4 m/s in 1/240 s
     const std::size_t late =
         static_cast<std::size_t>(std::ranges::count_if(events, [](const physvib_event& e) {
             return static_cast<double>(e.time_ns) * 1e-9 >= secondsToPlay;

@@ -125,8 +125,7 @@ TEST(BoardRobustness, NoHelloCanMakeItSoundOnForLonger) {
     EXPECT_EQ(rig.connect(65535).watchdogMs, wire::defaultWatchdogMs);
     rig.play({tone(500)}, 560);
     rig.board.runUntil(rig.board.seconds() + 1.0);
-    const std::size_t deadline = 20 + 17 + 4000 + 80; // its message came at frame 20 and took 2 ms; and those
-                                                      // of the hello before
+    const std::size_t deadline = 20 + 17 + 4000 + 80; // it came at frame 20, took 2 ms; the hello
     const auto& codes = rig.codes();
     ASSERT_GT(codes.size(), deadline + 1000);
     EXPECT_NE(codes[deadline - 300], silence);

@@ -47,8 +47,7 @@ private:
 
     json amplitudesOf(int k) {
         constexpr std::array gaps{1e-5, 0.0004, 0.002, 0.011,
-                                  0.05, 0.3,    20.0}; // also closer than a transient lasts, and longer than
-                                                       // an event may
+                                  0.05, 0.3,    20.0}; // closer and longer than transients
         constexpr std::array scales{0.0, 1e-4, 0.01, 0.1, 1.0};
         json list = json::array();
         double time = k % 3 == 0 ? 0.0 : share();

@@ -31,8 +31,7 @@ public:
             session.submit({Strikes{{&half, 1}}});
             session.advance();
             const auto blocks = interface_.play(interface_.block);
-            const auto count = static_cast<std::size_t>(interface_.rate / 8000); // means: what is slow is
-                                                                                 // kept
+            const auto count = static_cast<std::size_t>(interface_.rate / 8000); // means keep slow
             for (std::size_t k = 0; k < blocks.size(); ++k)
                 for (std::size_t n = 0; n + count <= blocks[k].size(); n += count)
                     left_.at(k).push_back(std::accumulate(&blocks[k][n], &blocks[k][n] + count, 0.0f) /

@@ -157,8 +157,7 @@ TEST(AudioOutput, ADriverThatHangsIsToldAndPlayedOnAgainWhenItAnswers) {
     Rig rig;
     ASSERT_EQ(rig.output.open({"hands"}), "");
     rig.interface.play(64);
-    rig.interface.hangsIn = FakeInterface::Call::close; // the server of a driver is stopped: no block, no
-                                                        // answer
+    rig.interface.hangsIn = FakeInterface::Call::close; // its server is stopped: no answer
     auto now = AudioOutput::Clock::now();
     std::string told;
     for (int second = 0; second < 6; ++second) told = rig.output.maintain(now += 1s);

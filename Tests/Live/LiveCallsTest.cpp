@@ -253,8 +253,7 @@ TEST(LiveCalls, ASessionsLayoutIsToldAsFarAsItGoes) {
     physvib_session session = nullptr;
     physvib_renderer_settings settings;
     ASSERT_EQ(physvib_session_create(nullptr, nullptr, 0, 0, &session), PHYSVIB_OK) << physvib_live_error();
-    const std::size_t size = sizeof settings - sizeof settings.layout.part; // of a program that knows no
-                                                                            // parts
+    const std::size_t size = sizeof settings - sizeof settings.layout.part; // of one without parts
     std::memset(&settings, 0xAB, sizeof settings);
     ASSERT_EQ(physvib_renderer_settings_init(&settings, size), PHYSVIB_OK);
     ASSERT_EQ(physvib_session_get_renderer(session, &settings), PHYSVIB_OK) << physvib_live_error();

@@ -206,8 +206,7 @@ TEST(MixerView, WhatIsDisabledCanBeRead) {
             c->setSize(140, 30);
             c->setEnabled(false);
             EXPECT_GE(drawnContrast(view, *c), 4.0)
-                << typeid(*c).name() << (theme == Theme::dark ? " dark" : " light"); // 4.5 but for the
-                                                                                     // edges of letters
+                << typeid(*c).name() << (theme == Theme::dark ? " dark" : " light"); // 4.5 less edges
             view.removeChildComponent(c);
         }
     }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cpu.sh [MIXER]: what the mixer costs on this machine, in shares of one core and in wakings of its threads a second, and how fast it starts:
-# on a display of its own, drawn in software, moving, paused, and minimised. For Docs/mixer.md; no test, since other programs share the machine.
+# on a display of its own, drawn in software, moving, paused, and minimised; beside it a window that shows nothing. For Docs/mixer.md; no test, since other programs share the machine.
 set -eu
 mixer=${1:-build/release/bin/physvib-mixer}
 for program in xvfb-run xdotool openbox; do
@@ -48,3 +48,8 @@ share ${SECONDS_EACH:-20} "at rest: the world stands still, nothing rings"
 xdotool windowminimize "$window"
 sleep 4
 share ${SECONDS_EACH:-20} "at rest and minimised"
+kill "$pid"
+"$(dirname "$mixer")/physvib-mixer-big-world" 0 --empty &
+pid=$!
+sleep 4
+share ${SECONDS_EACH:-20} "a window of JUCE that shows nothing"

@@ -101,8 +101,7 @@ TEST_P(DropStudy, HitsWhenAndAsHardAsPencilAndPaperSay) {
 }
 
 TEST_P(DropStudy, AmplitudesAreThoseOfTheEquations) {
-    const double normalisation = 1 / (2 * fieldWidth); // Eq. 5.7: one field width per second; m_h is the
-                                                       // plate's mass
+    const double normalisation = 1 / (2 * fieldWidth); // Eq. 5.7: a width a second; m_h: plate
     const double firstImpulse = fall.mass() * fall.landingSpeed() * (1 + fall.pair.restitution);
     const auto events = eventsOfFall(0);
     ASSERT_FALSE(events.empty());

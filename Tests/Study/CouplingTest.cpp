@@ -73,8 +73,7 @@ TEST(Coupling, NoGainsOfAPannerDriveMoreThanThreeDecibelsMore) {
         for (const double degrees : {0.0, 60.0, 120.0, 180.0}) {
             const CouplingMatrix drives = compensationMatrix(coupled(share, degrees));
             double most = 0.0;
-            for (int draw = 0; draw < 200; ++draw) { // corners of all gains, where the strongest drive is,
-                                                     // first
+            for (int draw = 0; draw < 200; ++draw) { // the strongest drive is at a corner: first
                 ComplexAmplitudes wanted(4);
                 for (std::size_t j = 0; j < 4; ++j)
                     wanted[j] = draw < 16 ? (draw >> j & 1) : random.uniform();

@@ -127,8 +127,7 @@ TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
 }
 
 TEST(LevelTrials, AnEndIsOneThoughNoTrialWasHeldThere) {
-    std::vector<LevelTrial> trials; // half of the later reversals are at 0, which one wrong answer leaves at
-                                    // once
+    std::vector<LevelTrial> trials; // half of the later reversals are at 0, which one error leaves
     for (const double level : {3.0, 3.0, 1.0, 2.0, 2.0, 1.5, 1.5, 1.0, 1.0, 0.5, 1.0, 1.5,
                                1.5, 1.0, 1.0, 0.5, 0.5, 0.0, 0.0, 0.5, 0.5, 0.0, 0.5})
         trials.push_back({LevelTrial::Kind::staircase, "P", "A", "", level, 1.0});

@@ -20,8 +20,7 @@ void tell(std::ostream& out, const ChoiceSummary& summary) {
     for (const ChoiceShare& share : summary.shares)
         out << (&share == &summary.shares.front() ? " " : ", ") << cleanLine(share.alternative) << ' '
             << percent(share.share) << " % ("
-            << (share.least < share.most ? percent(share.least) + " to " + percent(share.most) : "of each")
-            << ')';
+            << (share.hasInterval() ? percent(share.least) + " to " + percent(share.most) : "of each") << ')';
     out << ", " << counted(summary.trials, "trial") << " of " << counted(summary.participants, "participant");
     out << '\n';
 }
@@ -87,8 +86,8 @@ void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
         for (const auto& share : summary.shares)
             table.row(summary.condition, share.alternative, std::size_t{share.hits},
                       std::size_t{summary.trials}, 100.0 * share.share,
-                      share.least < share.most ? std::optional{100.0 * share.least} : std::nullopt,
-                      share.least < share.most ? std::optional{100.0 * share.most} : std::nullopt,
+                      share.hasInterval() ? std::optional{100.0 * share.least} : std::nullopt,
+                      share.hasInterval() ? std::optional{100.0 * share.most} : std::nullopt,
                       summary.participants, 100.0 * share.median);
     }
     out << "(... to ...): 95 % interval over "

@@ -281,11 +281,10 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
         words += "; felt as often as one likes";
     if (session.breakBeforeSeconds > 0.0)
         words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";
-    const bool hasBreaks =
-        std::ranges::any_of(protocol.conditions, [&](const ConditionPlan& condition) { // none after the last
-                                                                                       // trial
-            return mostTrialsOf(session, stimuliOf(condition).size()) > session.breakEvery;
-        });
+    // none after the last trial
+    const bool hasBreaks = std::ranges::any_of(protocol.conditions, [&](const ConditionPlan& condition) {
+        return mostTrialsOf(session, stimuliOf(condition).size()) > session.breakEvery;
+    });
     if (session.breakEvery > 0 && session.breakSeconds > 0.0 && hasBreaks)
         words += "; a break of " + secondsWords(session.breakSeconds) + " every " +
                  std::to_string(session.breakEvery) + " trials";

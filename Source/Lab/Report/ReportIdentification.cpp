@@ -206,6 +206,11 @@ std::string perceivedChart(ReportBuilder& report, const Places& places, bool isR
     return lineChart(chart);
 }
 
+bool hasEdges(const ReportBuilder& report) {
+    return std::ranges::any_of(report.trials.columns,
+                               [](const ColumnName& one) { return one.range.has_value(); });
+}
+
 } // namespace
 
 void tellPlaces(ReportBuilder& report) {
@@ -216,16 +221,14 @@ void tellPlaces(ReportBuilder& report) {
             const double at = parseNumber<double>(cell(row, axis)).value_or(0.0);
             return at < 0.0 || at > 1.0;
         };
-        const bool hasEdges = std::ranges::any_of(
-            report.trials.columns, [](const ColumnName& one) { return one.range.has_value(); });
         const auto outside = std::ranges::count_if(
             report.trials.all.rows, [&](const CsvRow& row) { return lies(row, "x") || lies(row, "y"); });
         tellPlaceErrors(report);
         return report.page.note(
             std::to_string(outside) + " of " + counted(report.trials.all.rows.size(), "place") +
-            (hasEdges ? " lie beyond the edges that --columns names" : " lie outside 0 to 1") +
+            (hasEdges(report) ? " lie beyond the edges that --columns names" : " lie outside 0 to 1") +
             ", so nothing is shown of territories and grids, which need all within the field's edges" +
-            (hasEdges
+            (hasEdges(report)
                  ? ""
                  : ": name these (--columns x=COLUMN:LEFT:RIGHT,y=COLUMN:TOP:BOTTOM, targets likewise)"));
     }
@@ -266,11 +269,9 @@ void tellPlaces(ReportBuilder& report) {
 
 void tellPlaceErrors(ReportBuilder& report) {
     report.page.heading("Perceived places");
-    const bool hasEdges = std::ranges::any_of(report.trials.columns,
-                                              [](const ColumnName& one) { return one.range.has_value(); });
     report.page.paragraph(
         std::string{
-            hasEdges
+            hasEdges(report)
                 ? "Places are shares of the named edges, x of the width and y of the height: where these "
                   "differ, so do the units of x and y in distances and variable errors. "
                 : "Places in the table's own units. "} +

@@ -109,13 +109,9 @@ ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uin
         share.least = alike.least, share.most = alike.most;
         return share;
     }
-    if (moments.halfInterval() < 1e-12) { // the same of all, but neither nobody's nor everybody's: no
-                                          // interval
-        share.least = share.most = share.share;
-        return share;
-    }
-    share.least = std::max(0.0, moments.mean - moments.halfInterval());
-    share.most = std::min(1.0, moments.mean + moments.halfInterval());
+    const double half = moments.halfInterval() < 1e-12 ? 0.0 : moments.halfInterval(); // 0: equal shares
+    share.least = std::max(0.0, moments.mean - half);
+    share.most = std::min(1.0, moments.mean + half);
     return share;
 }
 

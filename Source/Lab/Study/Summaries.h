@@ -113,6 +113,9 @@ struct ChoiceShare {
                                     ///< one or unknown participants Wilson's over trials
     double median = 0.0;            ///< of the participants' shares
     RankInterval ofMedian{};        ///< its rankInterval()
+
+    /// False where several have the same share, neither none nor all: it tells no spread. Any thread.
+    bool hasInterval() const noexcept { return least < most; }
 };
 
 struct ChoiceSummary {

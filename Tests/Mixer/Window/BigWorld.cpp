@@ -2,7 +2,8 @@
 // What the mixer's window does with a world that is too much: prints how long the first picture, the message,
 // other pictures and the end took, and what processor time of the window's own thread. With --spread: a world
 // that can be played, its pictures a second, share of a processor, and time from a click to the picture of
-// the body that it draws. With --paint: processor time of a picture of that world, without a display.
+// the body that it draws. With --paint: processor time of a picture of that world, without a display. With
+// --empty: a window that shows nothing, which ../cpu.sh compares.
 // ../big-world.sh runs it; no test, since it measures times.
 #include "Host/MessageLoop.h"
 #include "Live/Session/ThisThread.h"
@@ -197,13 +198,18 @@ void measure(int bodies, const juce::File& folder) {
 
 int main(int argc, char* argv[]) {
     juce::JUCEApplicationBase::createInstance = [] {
-        return static_cast<juce::JUCEApplicationBase*>(nullptr); // as a program of its own, JUCE bears errors
-                                                                 // of X
+        return static_cast<juce::JUCEApplicationBase*>(nullptr); // of a program JUCE bears errors of X
     };
     const juce::ScopedJuceInitialiser_GUI juce;
+    const std::string how = argc > 2 ? argv[2] : "";
+    if (how == "--empty") {
+        juce::DocumentWindow window{"empty", juce::Colours::black, 0};
+        window.setBounds(0, 0, 1440, 900);
+        window.setVisible(true);
+        juce::MessageManager::getInstance()->runDispatchLoop(); // until it is killed
+    }
     const auto folder = juce::File::createTempFile("physvib-big-world");
     folder.createDirectory();
-    const std::string how = argc > 2 ? argv[2] : "";
     const int bodies = argc > 1 ? std::atoi(argv[1]) : 2000;
     if (how == "--spread")
         physvib::test::measureSpread(bodies, folder);

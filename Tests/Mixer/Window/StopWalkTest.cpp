@@ -32,8 +32,7 @@ TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
     setenv("HOME", folder.folder.getFullPathName().toRawUTF8(), 1); // what is saved on the way
     const SystemChooser chooser{folder.folder};
     std::unique_ptr<MixerWindow> window;
-    const char* const device = std::getenv("PHYSVIB_STOP_DEVICE"); // measured there as well, by
-                                                                   // Tests/Hostile/stop-walk.sh
+    const char* const device = std::getenv("PHYSVIB_STOP_DEVICE"); // by Hostile/stop-walk.sh
     StopWalk walk{
         {[&] {
              window.reset();

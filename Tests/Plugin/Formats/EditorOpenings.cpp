@@ -15,8 +15,7 @@ namespace {
 using namespace physvib;
 
 constexpr int framesPerBlock = 512;
-constexpr double mostGrowthBytes = 1.0e6; // caches fill for some two hundred openings; 25 editors that are
-                                          // not freed hold 3 MB
+constexpr double mostGrowthBytes = 1.0e6; // caches fill first; 25 that are kept hold 3 MB
 
 double bytesInUse() {
     const auto heap = mallinfo2();

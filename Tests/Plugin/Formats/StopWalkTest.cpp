@@ -47,8 +47,7 @@ TEST(StopWalk, EveryStateOfTheEditorIsSilencedByEscAndByAPress) {
 
 int main(int argc, char** argv) {
     juce::JUCEApplicationBase::createInstance = [] {
-        return static_cast<juce::JUCEApplicationBase*>(nullptr); // as in a program of its own, JUCE bears
-                                                                 // errors of X
+        return static_cast<juce::JUCEApplicationBase*>(nullptr); // JUCE bears errors of X
     };
     testing::InitGoogleTest(&argc, argv);
     return RUN_ALL_TESTS();
