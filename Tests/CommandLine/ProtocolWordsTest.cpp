@@ -94,6 +94,7 @@ struct PlantedField {
 };
 
 std::vector<PlantedField> plantedFields() {
+    const Edit manyPoints = stimuli<GridSet>([](GridSet& s) { s.columns = s.rows = 6; });
     const Edit two = session([](SessionPlan& s) { s.alternatives = {{"one"}, {"other"}}; });
     const Edit adjusts = part<Adjustment>(&SessionPlan::adjustment, [](Adjustment&) {});
     const Edit stairs = part<StaircasePlan>(&SessionPlan::staircase, [](StaircasePlan&) {});
@@ -214,9 +215,9 @@ std::vector<PlantedField> plantedFields() {
         {"session.break_before_s", session([](SessionPlan& s) { s.breakBeforeSeconds = 121; }),
          "a break of 121 s before"},
         {"session.break_every", session([](SessionPlan& s) { s.breakEvery = 23, s.breakSeconds = 60; }),
-         " every 23 trials"},
+         " every 23 trials", manyPoints},
         {"session.break_s", session([](SessionPlan& s) { s.breakEvery = 23, s.breakSeconds = 61; }),
-         "a break of 61 s every"},
+         "a break of 61 s every", manyPoints},
         {"session.alternatives", session([](SessionPlan& s) {
              s.task = StudyTask::choose, s.alternatives = {{"one"}, {"other"}};
          }),
@@ -361,6 +362,17 @@ TEST(ProtocolWords, EveryFieldHasItsWordsAndNoneWithoutIt) {
         field.edit(with);
         EXPECT_NE(methodsOf(with).find(field.words), std::string::npos)
             << field.name << ": expected \"" << field.words << "\", found " << methodsOf(with);
+    }
+}
+
+TEST(ProtocolWords, NoBreakIsToldThatNobodyHas) {
+    Protocol p = plain();
+    std::get<GridSet>(p.conditions.front().stimuli) = {3, 1, PhantomGrid::Points::middles};
+    SessionPlan& s = p.sessions.front();
+    s.breakSeconds = 61;
+    for (const auto& [every, isTold] : {std::pair{2, true}, {3, false}}) { // none after the last trial
+        s.breakEvery = every;
+        EXPECT_EQ(methodsOf(p).find("a break of 61 s") != std::string::npos, isTold) << methodsOf(p);
     }
 }
 
