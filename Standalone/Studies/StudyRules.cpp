@@ -206,10 +206,12 @@ private:
         if (s.untilCorrect > static_cast<int>(fewest))
             warn(at + "until_correct: " + std::to_string(s.untilCorrect) + " in a row cannot be reached in " +
                  std::to_string(fewest) + " trials");
-        if (s.breakEvery >= static_cast<int>(fewest) && s.breakSeconds > 0.0)
-            warn(at + "break_every: " + std::to_string(s.breakEvery) +
-                 " trials are never over before the last of " + std::to_string(fewest) +
-                 ": there is no break");
+        if (s.breakEvery > 0 && s.breakSeconds > 0.0)
+            if (const auto none = withoutBreaks(protocol_, s); !none.empty())
+                warn(at + "break_every: " + std::to_string(s.breakEvery) +
+                     " trials are never over before the last of " + std::to_string(fewest) +
+                     ": there is no break" +
+                     (none.size() < protocol_.conditions.size() ? " in " + listed(none) : ""));
         if (s.leastSeconds > 0.0 && s.mostPlays > 0) judgeLeast(at, s);
     }
 

@@ -374,6 +374,12 @@ TEST(ProtocolWords, NoBreakIsToldThatNobodyHas) {
         s.breakEvery = every;
         EXPECT_EQ(methodsOf(p).find("a break of 61 s") != std::string::npos, isTold) << methodsOf(p);
     }
+    p.conditions.push_back(p.conditions.front());
+    p.conditions.back().name = "longer";
+    std::get<GridSet>(p.conditions.back().stimuli).columns = 4;
+    EXPECT_NE(methodsOf(p).find("a break of 61 s every 3 trials, none in " + p.conditions.front().name),
+              std::string::npos)
+        << methodsOf(p);
 }
 
 TEST(ProtocolWords, NoFieldIsForgotten) {

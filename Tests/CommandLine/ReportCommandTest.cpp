@@ -351,7 +351,7 @@ TEST_F(Report, LevelsThatAnswersChoseTellNoSlope) {
 
 TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
     if (!hasProgram("Rscript")) GTEST_SKIP() << "Rscript (Debian: r-base-core) is not here";
-    const std::string kept = "Protocol, number of participants and titles of tests are as planned.";
+    const std::string kept = "The number of participants and the titles of tests are as planned.";
     for (const std::string name : {"phantom-grids", "eight-methods", "magnitudes"}) {
         const auto planned = call("study plan " + name + " --participants 4 --out plan.txt");
         ASSERT_EQ(planned.exitCode, 0) << name;
@@ -360,7 +360,7 @@ TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
         simulate(name, 4);
         const std::string files = "report " + name + "-P*.csv --plan plan.txt --out ";
         ASSERT_EQ(call(files + name).exitCode, 0) << name;
-        EXPECT_TRUE(has(page(name), "The plan has the hash " + hash + ".")) << hash;
+        EXPECT_TRUE(has(page(name), "The plan, whose hash is " + hash + ", is of the protocol of these trials")) << hash;
         EXPECT_EQ(read("analysis.R"), read(name + "/analysis.R")) << "planned and run are one script";
         EXPECT_TRUE(has(page(name), kept))
             << name << page(name).substr(page(name).find("Planned and done"), 400);

@@ -73,6 +73,8 @@ std::vector<Sentence> sentences() {
                    interleaved = example("level-mixed"), twice = sessions(),
                    moved = variables("{hz}", "moved"),
                    itself = variables("2{level_db}0 --duty {hz}", "itself");
+    Protocol often = grid; // five trials of each cell
+    often.name = "often", often.sessions.back().repetitions = 10;
     Protocol matched = example("equal-sensation");
     Protocol told = grid;
     Protocol timed = grid;
@@ -104,6 +106,21 @@ std::vector<Sentence> sentences() {
         };
     };
     const Edit step = certainAbove("230", 2);
+    const Edit unlike = [&](Row& row) { // one is much surer than the other
+        rising(row);
+        if (row["participant"] == "P2") certainAbove("205", 2)(row);
+        if (row["participant"] == "P2" && row["trial"] == "9") row["correct"] = "0";
+    };
+    const auto firstOfP2 = [](const char* column, const char* value) {
+        return [=](Row& row) {
+            if (row["participant"] == "P2" && row["trial"] == "1" && row["phase"] != "training")
+                row[column] = value;
+        };
+    };
+    const Edit right = [](Row& row) { row["response"] = row["stimulus"]; };
+    const Edit equal = [](Row& row) {
+        if (row["task"] == "choose") row["choice"] = std::stoi(row["trial"]) % 2 ? "model" : "SV";
+    };
     const Edit unscored = [](Row& row) {
         if (row["participant"] == "P2" && row["trial"] == "1") row["rough"].clear();
     };
@@ -184,7 +201,7 @@ std::vector<Sentence> sentences() {
          of(constant, 3, rising, true)},
         {"thin lines: the function of each participant who has one; thick: that of the mean threshold and",
          of(constant, 3, rising, true), of(constant, 3, alike, true)},
-        {"nobody can be fitted", of(constant, 3, alike, true), of(constant, 3, rising, true)},
+        {"not analysed: nobody can be fitted", of(constant, 3, alike, true), of(constant, 3, rising, true)},
         {"a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be the smallest; "
          "the "
          "threshold that counts is half way between the first and the last such step, ",
@@ -236,7 +253,25 @@ std::vector<Sentence> sentences() {
          of(grid, 3)},
         {"Dotted: log2 of the number of stimuli.", of(grid, 3), of(numbers, 3)},
         {"Mean of the participants' own information transfer", of(grid, 3), of(grid, 1)},
-        {"Few trials make everyone's too high", of(grid, 3), of(grid, 1)},
+        {" Few trials make those that are not corrected too high", of(grid, 3), of(often, 3)},
+        {"3 participants, not corrected\n", of(grid, 3), of(often, 3)},
+        {"3 participants, corrected\n", of(often, 3), of(grid, 3)},
+        {"people have 6 to 8 trials, by whose number they count in IT", of(grid, 3, holes), of(grid, 3)},
+        {"Mean percent correct, 95 % intervals over participants, cut at 0 and 100 %",
+         of(grid, 3, both(right, firstOfP2("response", "no"))), of(grid, 3, right)},
+        {"; no interval: Student's would reach below 0)", of(constant, 2, unlike, true),
+         of(constant, 3, rising, true)},
+        {", in the unit of stimulus, 3 participants", of(constant, 3, rising, true), of(steps, 3)},
+        {", none where all have the same share", of(fits, 3, equal), of(fits, 3, set("choice", "model"))},
+        {"intervals over participants, cut at 0 and 100 %", of(fits, 3), of(fits, 3, set("choice", "model"))},
+        {"no power law is fitted: participant P2, condition PHONE, session main, stimulus wood: column "
+         "stimulus",
+         of(numbers, 3, firstOfP2("stimulus", "wood")), of(numbers, 3)},
+        {"not analysed: participant P2, condition a, session early, stimulus ",
+         of(twice, 3, firstOfP2("rough", "120"), true), of(twice, 3, {}, true)},
+        {"1 magnitude of 0, which has no logarithm, left out: of P2 in ",
+         of(numbers, 3, firstOfP2("value", "0")), of(numbers, 3)},
+        {", 95 % intervals over trials, of one participant", of(methods, 1), of(methods, 3)},
         {"Mean percent correct (as thesis Fig. 3.12, 4.3)", of(builtIn("patterns"), 2), of(grid, 3)},
         {"Percent correct by place", of(grid, 3), of(names, 3)},
         {"intervals over participants where there is room.", of(grid, 3), of(grid, 1)},
@@ -277,7 +312,7 @@ std::vector<Sentence> sentences() {
         {"lies outside the levels that were played", of(constant, 3, certainAbove("210", 9), true),
          of(steps, 3)},
         {"one participant, or no column participant: intervals are over trials", of(fits, 1), of(fits, 3)},
-        {"no response; trials left out for that: ", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
+        {"16 trials without a response left out", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
         {": 1 of 2 trials, a training", of(grid, 3, halfATraining, true), of(grid, 3)},
         {"reversals, for which nothing is left out", of(cut, 3, {}, true), of(interleaved, 3, {}, true)},
         {"thresholds of staircases: means of the later half of the reversals of the level that a trial "
@@ -300,7 +335,7 @@ std::vector<Sentence> sentences() {
         {" of them empty: counted by stimulus", of(told, 2, set("response", "", "P2")), of(told, 2)},
         {"trials ran out of time, without an answer: analyses leave them out", of(timed, 3, {}, true),
          of(grid, 3)},
-        {"trials.csv: left out: ", of(timed, 3, {}, true), of(grid, 3)},
+        {">left out: ", of(timed, 3, {}, true), of(grid, 3)},
         {"stimuli were not answered equally often", of(timed, 3, {}, true), of(grid, 3)},
         {"(... to ...): 95 % interval over participants", of(fits, 3), of(fits, 1)},
         {"16 answers in participants' own words: counted by stimulus, not analysed.", of(told, 1),
@@ -368,12 +403,42 @@ TEST(ReportSentences, APlanWithoutTestsIsKeptByAReportWithoutTests) {
             .value.back();
     };
     const std::vector<std::string> none;
-    EXPECT_EQ(last("1", none),
-              "Protocol and number of participants are as planned; plan and report make no test.");
+    EXPECT_EQ(last("1", none), "The number of participants is as planned; plan and report make no test.");
     EXPECT_EQ(last("2", none), "Plan and report make no test.");
     EXPECT_EQ(last("1", std::vector<std::string>{"a"}), "Not planned: a");
     EXPECT_EQ(last("1", {}),
               "The tests are not compared: R did not run, now or when it was planned; the scripts can be.");
+}
+
+TEST(ReportSentences, APlanIsOfTheProtocolOrOfAnother) {
+    const auto trials = readReportTrials({{"P1.csv", fileOf(points(), 1, {})}}, {}, {}).value;
+    const std::string own = trials.common("hash");
+    const auto first = [&](const std::string& hash) {
+        return comparedWithPlan("# physvib 1 plan=study hash=" + hash + " participants=1\nnone\n", "plan",
+                                trials, {})
+            .value.front();
+    };
+    EXPECT_NE(first(own).find(", is of the protocol of these trials (hash " + own + ")."), std::string::npos);
+    EXPECT_NE(first("0").find(", is of another protocol than these trials: hash 0, theirs " + own + "."),
+              std::string::npos)
+        << first("0");
+}
+
+TEST(ReportSentences, WhatCouldNotBeTestedIsToldByItsKind) {
+    EXPECT_EQ(
+        notMadeIn("# R\ntest,effect,statistic,p,note\na,left out,note,,of P1\nb,factors,,,nobody varies\n"
+                  "c,d,t,0.5,\n"),
+        std::vector<std::string>{"Not made: b, factors: nobody varies"});
+}
+
+TEST(ReportSentences, UnfinishedStaircasesAreDrawn) {
+    const Edit early = [](Row& row) {
+        if (row["participant"] == "P2" && std::stoi(row["trial"]) > 5) row["participant"].clear();
+        if (row["participant"] == "P2") row["level_db"] = "40";
+    };
+    const Protocol steps = findProtocol("level-steps").value;
+    EXPECT_NE(pageOf(of(steps, 3, early)).find(">40</text>"), std::string::npos);
+    EXPECT_EQ(pageOf(of(steps, 3)).find(">40</text>"), std::string::npos);
 }
 
 TEST(ReportSentences, StaircasesThatRanOutOfTimeAreNoChoices) {

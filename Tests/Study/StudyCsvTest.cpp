@@ -27,7 +27,7 @@ TEST(StudyCsv, TrialsWithoutAResponseAreLeftOutAndTold) {
     ASSERT_TRUE(data) << data.error;
     EXPECT_EQ(data.value.conditions.front().trials.size(), 1u);
     EXPECT_EQ(data.value.warnings,
-              std::vector<std::string>{"f.csv:3: no response; trials left out for that: 2"});
+              std::vector<std::string>{"f.csv: 2 trials without a response left out"});
     EXPECT_EQ(readOne(readIdentification, "stimulus,response\ny,\n").error,
               "f.csv: expected trials of this kind, found none");
 }

@@ -91,7 +91,7 @@ void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
                       summary.participants, 100.0 * share.median);
     }
     out << "(... to ...): 95 % interval over "
-        << (summaries.front().participants > 1 ? "participants" + alikeWords(summaries) + "\n"
+        << (summaries.front().participants > 1 ? "participants" + intervalNotes(summaries) + "\n"
                                                : "trials, of one participant\n")
         << "shares over several conditions are of all trials that each participant had in them\n";
     report.picture = [data] {
@@ -207,11 +207,16 @@ Result<LevelAnswers> readColumns(const AnalysisJob& o, LevelAnswerColumns column
         o, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
 }
 
-/// "threshold 12.3 (95 % interval 11.0 to 13.4)", over participants.
-std::string meanWords(const char* name, const std::vector<double>& values, int decimals) {
+/// "threshold 12.3 (95 % interval 11.0 to 13.4)", over participants. Of what is above 0, no interval goes
+/// below.
+std::string meanWords(const char* name, const std::vector<double>& values, int decimals,
+                      bool isAboveZero = false) {
     const Moments own{values};
     std::string words = std::string(name) + " " + fixedNumber(own.mean, decimals);
-    if (own.n > 1)
+    if (own.n > 1 && isAboveZero && own.least() <= 0.0)
+        words += " (standard deviation " + fixedNumber(own.deviation, decimals) +
+                 "; no interval: Student's would reach below 0)";
+    else if (own.n > 1)
         words += " (95 % interval " + fixedNumber(own.least(), decimals) + " to " +
                  fixedNumber(own.most(), decimals) + ")";
     return words;
@@ -298,11 +303,12 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
         isFitted = true;
         const int decimals = decimalsOf(Moments(jnds.empty() ? thresholds : jnds).mean);
         out << prefixOf(condition.name) << meanWords(words.half(o.model), thresholds, decimals) << ", "
-            << (jnds.empty() ? "no JND (a step fits as well)" : meanWords("JND", jnds, decimals))
+            << (jnds.empty() ? "no JND (a step fits as well)" : meanWords("JND", jnds, decimals, true))
             << (!jnds.empty() && jnds.size() < thresholds.size()
                     ? " (n = " + std::to_string(jnds.size()) + ")"
                     : "")
-            << ", " << counted(thresholds.size(), "participant") << '\n';
+            << ", in " << cleanLine(words.unit()) << ", " << counted(thresholds.size(), "participant")
+            << '\n';
     }
     if (!isFitted) return tellNobodyFitted(to);
     const auto& first = data.conditions.front();

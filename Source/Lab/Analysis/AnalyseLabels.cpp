@@ -64,8 +64,8 @@ std::string correctWords(const ConfusionMatrix& matrix, const std::vector<Partic
     if (moments.halfInterval() == 0.0)
         return mean + " (" + counted(people.size(), "participant") + ", all the same)";
     return mean + " (95 % interval over " + counted(people.size(), "participant") + " " +
-           percent(std::max(0.0, moments.mean - moments.halfInterval())) + " to " +
-           percent(std::min(1.0, moments.mean + moments.halfInterval())) + ")";
+           percent(std::max(0.0, moments.least())) + " to " + percent(std::min(1.0, moments.most())) +
+           (moments.least() < 0.0 || moments.most() > 1.0 ? ", cut at 0 and 100 %)" : ")");
 }
 
 void tell(std::ostream& out, const std::string& indent, const ConfusionMatrix& matrix,
@@ -87,6 +87,7 @@ void tellAndExport(std::ostream& out, const std::string& indent, const std::stri
                    const std::vector<ParticipantTransfer>& people, std::size_t stimuli, bool isOfAll,
                    ExportTable& counts, ExportTable& each) {
     std::vector<double> transferred;
+    std::size_t corrected = 0, fewest = people.front().matrix.trials(), most = fewest;
     std::string lacking;
     for (const auto& [participant, matrix, transfer] : people) {
         for (std::size_t i = 0; i < matrix.stimuli(); ++i)
@@ -98,15 +99,23 @@ void tellAndExport(std::ostream& out, const std::string& indent, const std::stri
         each.row(condition, participant, std::size_t{matrix.trials()},
                  isWhole || isOfAll ? std::optional{100.0 * share} : std::nullopt, transfer.bits,
                  transfer.canBeCorrected() ? std::optional{transfer.correctedBits()} : std::nullopt);
+        fewest = std::min<std::size_t>(fewest, matrix.trials()),
+        most = std::max<std::size_t>(most, matrix.trials());
         if (isWhole)
-            transferred.push_back(transfer.bestBits());
+            transferred.push_back(transfer.bestBits()), corrected += transfer.canBeCorrected();
         else
             lacking += (lacking.empty() ? "" : ", ") + cleanLine(participant);
     }
+    if (fewest < most)
+        out << indent << "people have " << fewest << " to " << most
+            << " trials, by whose number they count in IT\n";
     const Moments moments{transferred};
     if (moments.n > 1)
         out << indent << "IT of participants: mean " << bits(moments.mean) << ", standard error "
-            << bits(moments.standardError()) << ", " << moments.n << " participants\n";
+            << bits(moments.standardError()) << ", " << moments.n << " participants, "
+            << (corrected == moments.n ? "corrected\n"
+                : corrected == 0       ? "not corrected\n"
+                                       : "corrected where there are trials enough\n");
     if (!lacking.empty())
         out << indent << "stimuli are lacking of " << lacking
             << (isOfAll ? ": each counts with those that there are\n"

@@ -90,7 +90,9 @@ std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summ
         chart.groups.push_back(summary.condition);
         for (std::size_t s = 0; s < chart.series.size(); ++s) {
             const ChoiceShare& share = summary.shares[s];
-            const RankInterval by = ofMedians ? share.ofMedian : RankInterval{share.least, share.most};
+            const RankInterval by = ofMedians             ? share.ofMedian
+                                    : share.hasInterval() ? RankInterval{share.least, share.most}
+                                                          : RankInterval{share.share, share.share};
             chart.series[s].bars.push_back(ChartValue{100.0 * (ofMedians ? share.median : share.share),
                                                       100.0 * by.least, 100.0 * by.most});
         }

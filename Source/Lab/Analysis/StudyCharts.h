@@ -56,6 +56,7 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
 /// Axis labels of the fitted levels and answers.
 struct FitWords {
     std::string level = "level (dB)", answer = "correct";
+    std::string unit() const { return level == FitWords{}.level ? "dB" : "the unit of " + level; }
     /// What the level of one half is; `choice=left` of two has no right answer.
     const char* half(const PsychometricModel& model) const {
         return model.guess > 0.0                  ? "threshold"

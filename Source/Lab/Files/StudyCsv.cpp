@@ -79,18 +79,18 @@ void expectFewLabels(const std::string& file, const StudyData<IdentificationTria
 std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTrial>& data) {
     const auto stimulus = rows.required("stimulus"), response = rows.required("response");
     const auto participant = rows.optional("participant");
-    std::size_t missing = 0, firstMissing = 0;
+    std::size_t missing = 0;
     const std::size_t taken = rows.each(AnswerKind::label, [&](const CsvRow& row) {
         if (row.cells[response].empty() && !rows.text(row, stimulus).empty()) {
-            if (missing++ == 0) firstMissing = row.line;
+            ++missing;
             return;
         }
         conditionNamed(rows, data, rows.conditionOf(row))
             .push_back({rows.text(row, stimulus), row.cells[response], StudyRows::textIf(row, participant)});
     });
     if (missing > 0)
-        data.warnings.push_back(rows.table().name + ":" + std::to_string(firstMissing) +
-                                ": no response; trials left out for that: " + std::to_string(missing));
+        data.warnings.push_back(rows.table().name + ": " + counted(missing, "trial") +
+                                " without a response left out");
     expectFewLabels(rows.table().name, data);
     return data.conditions.empty() ? 0 : taken;
 }
@@ -324,6 +324,7 @@ std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
 
 std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     std::size_t taken = 0, ofTraining = 0, zeros = 0;
+    std::set<std::string> whose;
     const auto task = rows.optional(trialColumns::task);
     if (!task && !rows.optional("value")) rows.required("correct");
     const auto phase = rows.optional(trialColumns::phase);
@@ -341,7 +342,10 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
         if (task ? answer == AnswerKind::number : rows.optional("value").has_value()) {
             const std::string& value = row.cells[rows.required("value")];
             const bool isZero = parseNumber<double>(value) == 0.0;
-            zeros += isZero;
+            if (zeros += isZero; isZero) {
+                const std::string who = cleanLine(StudyRows::textIf(row, rows.optional("participant")));
+                whose.insert(who.empty() ? who : inSession(who, cleanLine(rows.conditionOf(row))));
+            }
             if (isZero || value.empty()) continue;
         }
         if (auto trial = levelTrial(rows, row)) {
@@ -354,7 +358,8 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     if (taken > 0 && !rows.optional("stimulus") && rows.optional("level_db") && rows.optional("value"))
         data.warnings.push_back(rows.table().name + " has no column stimulus: level_db (dB) stands for it");
     if (zeros > 0)
-        data.warnings.push_back(counted(zeros, "magnitude") + " of 0, which has no logarithm, left out");
+        data.warnings.push_back(counted(zeros, "magnitude") + " of 0, which has no logarithm, left out" +
+                                (whose.contains("") ? "" : ": of " + joined(whose, ", ")));
     return taken;
 }
 

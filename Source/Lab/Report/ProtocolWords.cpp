@@ -175,7 +175,8 @@ std::string scoreWords(const SessionPlan& session, const std::string& scale) {
 
 std::vector<std::string> protocolSentences(const Protocol& protocol) {
     std::vector<std::string> sentences{
-        "Protocol " + protocol.name + (protocol.title.empty() ? std::string{} : ": " + protocol.title) + ".",
+        "Protocol " + protocol.name + (protocol.title.empty() ? std::string{} : ": " + protocol.title) +
+            (protocol.title.ends_with('?') ? "" : "."),
         "Every participant does each session in each condition; the order of conditions is " +
             std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)]) + "."};
     sentences.push_back(levelChain(protocol, "as planned"));
@@ -281,13 +282,11 @@ std::string sessionWords(const SessionPlan& session, const Protocol& protocol) {
         words += "; felt as often as one likes";
     if (session.breakBeforeSeconds > 0.0)
         words += "; a break of " + secondsWords(session.breakBeforeSeconds) + " before";
-    // none after the last trial
-    const bool hasBreaks = std::ranges::any_of(protocol.conditions, [&](const ConditionPlan& condition) {
-        return mostTrialsOf(session, stimuliOf(condition).size()) > session.breakEvery;
-    });
-    if (session.breakEvery > 0 && session.breakSeconds > 0.0 && hasBreaks)
-        words += "; a break of " + secondsWords(session.breakSeconds) + " every " +
-                 std::to_string(session.breakEvery) + " trials";
+    if (session.breakEvery > 0 && session.breakSeconds > 0.0)
+        if (const auto none = withoutBreaks(protocol, session); none.size() < protocol.conditions.size())
+            words += "; a break of " + secondsWords(session.breakSeconds) + " every " +
+                     std::to_string(session.breakEvery) + " trials" +
+                     (none.empty() ? "" : ", none in " + listed(none));
     return words;
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Runs the analyses of a report.
 #include "Lab/Report/ReportBuilder.h"
+#include "Io/Text/CleanText.h"
+#include "Io/Text/CsvText.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <set>
 
@@ -31,11 +34,33 @@ std::size_t ReportBuilder::people() const {
     return std::max<std::size_t>(1, codes.size());
 }
 
+std::string ReportBuilder::said(const std::string& words) const {
+    std::string_view rest = words;
+    if (!rest.starts_with(std::string{trialsTable} + ":")) return words;
+    rest.remove_prefix(std::string_view{trialsTable}.size() + 1);
+    if (rest.starts_with(' ')) return std::string{rest.substr(1)};
+    const auto line = parseNumber<std::size_t>(takeUntil(':', rest));
+    const auto table = readCsvTable(tableText(trialsTable), trialsTable);
+    const Cells cell{table.value};
+    for (const CsvRow& row : table.value.rows)
+        if (row.line == line) {
+            std::string where;
+            for (const char* column : {"participant", "condition", "session", "stimulus"})
+                if (!cell(row, column).empty())
+                    where.append(where.empty() ? "" : ", ")
+                        .append(column)
+                        .append(" ")
+                        .append(cleanLine(cell(row, column)));
+            return where + ":" + std::string{rest};
+        }
+    return words;
+}
+
 void ReportBuilder::warn(const std::vector<std::string>& warnings) {
     std::vector<std::string> fresh;
     for (const std::string& words : warnings)
-        if (std::ranges::find(warned_, words) == warned_.end()) fresh.push_back(words);
-    warned_.insert(warned_.end(), fresh.begin(), fresh.end());
+        if (std::ranges::find(warned_, words) == warned_.end()) fresh.push_back(said(words));
+    warned_.insert(warned_.end(), warnings.begin(), warnings.end());
     page.notes(fresh);
 }
 
@@ -45,7 +70,7 @@ AnalysisReport ReportBuilder::analysis(const std::string& kind, const AnalysisJo
     warn(report.warnings);
     if (!report.words.empty()) page.lines(shortened(report.words, name));
     if (!report.error.empty())
-        page.note(report.error);
+        tellFault(report.error);
     else
         tables_[name] = report.table;
     return report;

@@ -35,7 +35,8 @@ public:
 
     /// ", 95 % intervals over participants", if there are. Some bars may be of one participant alone.
     std::string intervals(bool someAlone = false) const {
-        return people() < 2 ? ", of one participant without intervals"
+        return people() < 2 ? (someAlone ? ", 95 % intervals over trials, of one participant"
+                                         : ", of one participant without intervals")
                : someAlone  ? ", 95 % intervals over participants, or over trials where there was one"
                             : ", 95 % intervals over participants";
     }
@@ -70,6 +71,11 @@ public:
 
     /// Runs an analysis: warnings and text go to the page, its table to `name`. `error` is empty on success.
     AnalysisReport analysis(const std::string& kind, const AnalysisJob& options, const std::string& name);
+
+    /// What a reader says of the table of all trials, with the trial's participant, condition and stimulus in
+    /// place of file and line.
+    std::string said(const std::string& words) const;
+    void tellFault(const std::string& error) { page.note("not analysed: " + said(error)); }
 
     /// Frame of the next chart, with a unique name.
     ChartFrame frame(std::string title) {

@@ -19,6 +19,14 @@ struct IdentifiedCondition {
     ConfusionMatrix matrix;
     InformationTransfer transfer;
     std::vector<double> shares, bits; ///< one value per participant, in percent and bits
+    bool isCorrected = true;          ///< all of `bits`
+
+    /// Mean percent correct with its interval, cut at 0 and 100 %.
+    ChartValue correct() const {
+        const Moments moments{shares};
+        return {moments.mean, std::max(0.0, moments.least()), std::min(100.0, moments.most())};
+    }
+    bool isCut() const { return Moments(shares).least() < 0.0 || Moments(shares).most() > 100.0; }
 };
 
 std::vector<IdentifiedCondition> conditionsOf(const Identified& data, int tolerance) {
@@ -34,16 +42,13 @@ std::vector<IdentifiedCondition> conditionsOf(const Identified& data, int tolera
         for (const auto& own : comparable(transferByParticipant(trials), matrix.stimuli())) {
             one.shares.push_back(100.0 * static_cast<double>(own.matrix.correct()) /
                                  static_cast<double>(own.matrix.trials()));
-            if (own.matrix.stimuli() == matrix.stimuli()) one.bits.push_back(own.transfer.bestBits());
+            if (own.matrix.stimuli() != matrix.stimuli()) continue;
+            one.bits.push_back(own.transfer.bestBits());
+            one.isCorrected = one.isCorrected && own.transfer.canBeCorrected();
         }
         all.push_back(std::move(one));
     }
     return all;
-}
-
-ChartValue withInterval(const std::vector<double>& values) {
-    const Moments moments{values};
-    return ChartValue::around(moments.mean, moments.halfInterval());
 }
 
 /// One bar per condition, with the value that `value` returns.
@@ -118,29 +123,34 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     it.ceilingWords = "most possible";
     report.page.figure(
         {barChart(it)},
-        "Information transfer of all participants' trials together" + words +
+        "Information transfer of all participants' trials together, not corrected" + words +
             report.asThesis("Fig. 3.11, 4.2") +
             ": one estimate per condition, so it has no interval. Dotted: log2 of the number of stimuli.");
     if (hasPeople && std::ranges::none_of(all, [](const auto& c) { return c.bits.empty(); })) {
         auto own = barsOf(report.frame("Information transfer of participants" + words), "IT (bit)", all,
-                          [](const auto& c) { return withInterval(c.bits); });
+                          [](const auto& c) {
+                              return ChartValue::around(Moments(c.bits).mean, Moments(c.bits).halfInterval());
+                          });
+        const bool isCorrected = std::ranges::all_of(all, &IdentifiedCondition::isCorrected);
         own.ceilings = it.ceilings, own.ceilingWords = it.ceilingWords;
-        report.page.figure({barChart(own)}, "Mean of the participants' own information transfer" + words +
-                                                report.intervals() +
-                                                ", without those who lack a stimulus. Few trials make "
-                                                "everyone's too high, though never higher than "
-                                                "their logarithm: compare conditions of as many stimuli and "
-                                                "trials only.");
+        report.page.figure({barChart(own)},
+                           "Mean of the participants' own information transfer" + words + report.intervals() +
+                               ", without those who lack a stimulus." +
+                               (isCorrected ? ""
+                                            : " Few trials make those that are not corrected "
+                                              "too high: compare conditions of as many "
+                                              "stimuli and trials only."));
     }
     const auto isOfAll = [](const auto& c) { return c.shares.size() > c.bits.size(); };
     BarChart pc = barsOf(report.frame("Percent correct" + words), "correct (%)", all,
-                         [](const auto& c) { return withInterval(c.shares); });
+                         [](const auto& c) { return c.correct(); });
     pc.most = 100.0;
-    report.page.figure({barChart(pc)},
-                       "Mean percent correct" + words + report.asThesis("Fig. 3.12, 4.3") +
-                           report.intervals() +
-                           (std::ranges::any_of(all, isOfAll) ? ", each of the stimuli that there are."
-                                                              : ", without those who lack a stimulus."));
+    report.page.figure(
+        {barChart(pc)},
+        "Mean percent correct" + words + report.asThesis("Fig. 3.12, 4.3") + report.intervals() +
+            (std::ranges::any_of(all, &IdentifiedCondition::isCut) ? ", cut at 0 and 100 %" : "") +
+            (std::ranges::any_of(all, isOfAll) ? ", each of the stimuli that there are."
+                                               : ", without those who lack a stimulus."));
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
         const auto& trials = data.conditions[c].trials;
@@ -164,7 +174,7 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
 void tellIdentification(ReportBuilder& report) {
     report.page.heading("Identification");
     const auto data = report.read(readIdentification);
-    if (!data) return report.page.note(data.error);
+    if (!data) return report.tellFault(data.error);
     tellCriterion(report, data.value, 0);
     if (isGrid(data.value)) tellCriterion(report, data.value, 1);
 }
@@ -233,7 +243,7 @@ void tellPlaces(ReportBuilder& report) {
                  : ": name these (--columns x=COLUMN:LEFT:RIGHT,y=COLUMN:TOP:BOTTOM, targets likewise)"));
     }
     report.page.heading("Perceived places");
-    if (!data) return report.page.note(data.error);
+    if (!data) return report.tellFault(data.error);
     AnalysisReport resolution = report.analysis("resolution", report.options(), "resolution.csv");
     if (!resolution.error.empty()) return;
     report.addTable("percent-counts.csv", resolution.counts);

@@ -24,7 +24,7 @@ void tellFits(ReportBuilder& report) {
     AnalysisJob fit = report.options();
     fit.model.guess = report.trials.guess;
     const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"level_db", "correct", false});
-    if (!data) return report.page.note(data.error);
+    if (!data) return report.tellFault(data.error);
     tellFunctions(report, data.value, fit, "psychometric.csv");
 }
 
@@ -58,7 +58,7 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
 void tellMagnitudes(ReportBuilder& report) {
     report.page.subheading("Magnitudes");
     const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"stimulus", "value", true});
-    if (!data) return report.page.note("stimuli are no levels, so there is no power law: " + data.error);
+    if (!data) return report.page.note("no power law is fitted: " + report.said(data.error));
     const auto words = report.analysis("power-law", report.options(), "power-law.csv");
     if (!words.error.empty()) return;
     std::vector<std::string> charts;
@@ -135,7 +135,7 @@ void tellLevels(ReportBuilder& report) {
     AnalysisJob options = report.options();
     options.protocol = report.trials.protocol;
     const auto data = readFinishedLevels(options);
-    if (!data) return report.page.note(data.error);
+    if (!data) return report.tellFault(data.error);
     const auto& trials = data.value.conditions.front().trials;
     const auto has = [&](LevelTrial::Kind kind) {
         return std::ranges::any_of(trials, [=](const LevelTrial& trial) { return trial.kind == kind; });
@@ -150,7 +150,7 @@ void tellLevels(ReportBuilder& report) {
         report.page.figure(
             {levelChart(report.frame("Matched levels"), summaries, LevelTrial::Kind::adjustment)},
             "Levels that were set by adjustment: means" + report.intervals() + ".");
-    tellThresholds(report, trials, summaries);
+    tellThresholds(report, report.read(readLevels).value.conditions.front().trials, summaries);
     if (has(LevelTrial::Kind::magnitude) && report.trials.all.column("stimulus")) tellMagnitudes(report);
 }
 

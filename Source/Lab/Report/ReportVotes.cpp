@@ -23,7 +23,7 @@ bool showsMedians(const ReportBuilder& report) { return report.isAsPublished() &
 /// Shares of one participant have Wilson's interval over trials.
 std::string shareIntervals(const ReportBuilder& report, const std::vector<ChoiceSummary>& shown) {
     if (showsMedians(report)) return ", 95 % intervals by ranks of participants";
-    return report.people() > 1 ? report.intervals() + alikeWords(shown)
+    return report.people() > 1 ? report.intervals() + intervalNotes(shown)
                                : ", of one participant: 95 % intervals over trials, Wilson's";
 }
 
@@ -75,7 +75,10 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
     const auto summaries = summariseRatings(session.trials);
     std::set<std::string> conditions;
     for (const RatingTrial& trial : session.trials) conditions.insert(trial.condition);
-    const bool isSomeAlone = std::ranges::count(summaries, 1, &RatingSummary::participants) > 0;
+    const bool isSomeAlone = std::ranges::any_of(summaries, [](const RatingSummary& one) {
+        return one.participants == 1 &&
+               std::ranges::any_of(one.halfIntervals, [](double half) { return half > 0.0; });
+    });
     const auto draw = [&](const char* words, const char* figure, const std::vector<RatingSummary>& shown) {
         const std::string title = inSession(words, session.name);
         report.page.figure({scoresChart(report.frame(title), data.scales, shown)},
@@ -120,7 +123,7 @@ void tellConstantStimuli(ReportBuilder& report) {
 void tellChoices(ReportBuilder& report) {
     report.page.heading("Choices");
     const auto data = report.read(readChoices);
-    if (!data) return report.page.note(data.error);
+    if (!data) return report.tellFault(data.error);
     if (const auto words = report.analysis("choices", report.options(), "choices.csv"); !words.error.empty())
         return;
     tellConstantStimuli(report);
@@ -130,7 +133,7 @@ void tellChoices(ReportBuilder& report) {
 void tellRatings(ReportBuilder& report) {
     report.page.heading("Ratings");
     const auto data = report.read(readRatings);
-    if (!data) return report.page.note(data.error);
+    if (!data) return report.tellFault(data.error);
     if (const auto words = report.analysis("ratings", report.options(), "ratings.csv"); !words.error.empty())
         return;
     report.scales = data.value.scales;

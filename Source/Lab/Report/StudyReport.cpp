@@ -379,10 +379,12 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
         const std::string_view line = takeUntil('\n', rest);
         if (line.starts_with(testMark)) planned.emplace(line.substr(testMark.size()));
     }
-    std::vector<std::string> sentences{"The plan has the hash " + contentHash(std::string{plan}) + "."};
-    if (head.at("hash") != trials.common("hash"))
-        sentences.push_back("The protocol is not the planned one: hash " + trials.common("hash") +
-                            " instead of " + head.at("hash") + ".");
+    const bool isOfThis = head.at("hash") == trials.common("hash");
+    std::vector<std::string> sentences{
+        "The plan, whose hash is " + contentHash(std::string{plan}) +
+        (isOfThis ? ", is of the protocol of these trials (hash " + head.at("hash") + ")."
+                  : ", is of another protocol than these trials: hash " + head.at("hash") + ", theirs " +
+                        (trials.common("hash").empty() ? "is not one" : trials.common("hash")) + ".")};
     std::set<std::string> people;
     for (const TrialFile& file : trials.files)
         if (const auto column = file.table.column("participant"))
@@ -397,7 +399,7 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     }
     if (tests->empty() && planned.empty()) {
         sentences.emplace_back(
-            (sentences.size() > 1 ? "Plan" : "Protocol and number of participants are as planned; plan") +
+            (sentences.size() > 1 ? "Plan" : "The number of participants is as planned; plan") +
             std::string{" and report make no test."});
         return sentences;
     }
@@ -412,7 +414,7 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     }
     for (const std::string& test : planned) sentences.push_back("Planned, not done: " + test);
     if (sentences.size() == 1)
-        sentences.emplace_back("Protocol, number of participants and titles of tests are as planned.");
+        sentences.emplace_back("The number of participants and the titles of tests are as planned.");
     return sentences;
 }
 

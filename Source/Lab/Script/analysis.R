@@ -95,20 +95,22 @@ of.people <- function(file, measure, factor, people, where = character()) { # th
 }
 
 results <- data.frame()
+digits.of <- function(p) format(signif(p, 3), digits = 3, scientific = FALSE)
+# The statistic "note" is of no test: it says what was averaged over, left out or looked at.
 result <- function(test, effect, statistic, value, p, n, df1 = NA, df2 = NA, p_corrected = NA, correction = "", epsilon = NA, size = "",
                    effect_size = NA, difference = NA, least = NA, most = NA, note = "", lines = 2) { # lines: that are corrected together
   line <- data.frame(test, effect, statistic, df1, df2, value, p, p_corrected, correction, epsilon, size, effect_size, n, difference, least, most, note, p_across = NA)
   results <<- rbind(results, line)
   near <- function(x) format(signif(x, 4), digits = 4)
   known <- function(words, x, says = near(x)) if (is.na(x)) "" else paste0(", ", words, " ", says)
-  p.words <- function(p) if (is.na(p) || p >= 1e-4) paste("=", format(signif(p, 3), digits = 3)) else "< 0.0001"
+  p.words <- function(p) if (is.na(p) || p >= 1e-4) paste("=", digits.of(p)) else "< 0.0001"
   df <- if (is.na(df1)) "" else paste0("(", near(df1), if (!is.na(df2)) paste0(", ", near(df2)), ")")
   interval <- if (is.na(least)) "" else paste0(" (95 % interval ", near(least), " to ", near(most), ")")
   whose <- c(holm = "Holm's", bonferroni = "Bonferroni's", "Greenhouse-Geisser" = "Greenhouse and Geisser's")[correction]
   middle <- if (statistic == "V") "median difference" else if (statistic == "W") "difference of medians" else "difference"
   words <- paste0(statistic, df, " = ", near(value), ", p ", p.words(p), if (lines > 1) known(paste(whose, "p"), p_corrected, p.words(p_corrected)),
                   known("epsilon", epsilon), known(middle, difference), interval, known(paste(size, "="), effect_size))
-  cat("  ", effect, ": ", if (note == "" || !is.na(p)) words else if (effect %in% c("factors", "left out", "hidden reference")) note else paste("not tested:", note),
+  cat("  ", effect, ": ", if (note == "" || !is.na(p)) words else if (statistic == "note") note else paste("not tested:", note),
       if (!is.na(n)) paste(", n =", n), if (note != "" && !is.na(p)) paste0(", ", note), "\n", sep = "")
 }
 # Signed ranks, or of two arguments Mann and Whitney's: p of all signs, or of all ways to divide the ranks, also where they are tied. Of more ranks R's own.
@@ -133,8 +135,8 @@ tell.lacking <- function(test, cells) { # once of the same cells
   lacking <- c(attr(cells, "lacking"), attr(cells, "absent")); unknown <- attr(cells, "unknown")
   of <- function(test) sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|.* test|pairs by (t|ranks)) of ", "", test))
   if (any(results$effect == "left out" & of(results$test) == of(test))) return(invisible())
-  if (length(unknown) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of tests by group and of those within people beside it"))
-  if (length(lacking) > 0) result(test, "left out", "", NA, NA, nrow(cells), note = values.lacking(lacking))
+  if (length(unknown) > 0) result(test, "left out", "note", NA, NA, nrow(cells), note = paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of tests by group and of those within people beside it"))
+  if (length(lacking) > 0) result(test, "left out", "note", NA, NA, nrow(cells), note = values.lacking(lacking))
 }
 
 # Of each group its means of the levels within participants, where they are few.
@@ -315,7 +317,7 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   if (is.null(factors)) { # the same rows as where levels are compared
     lone <- lone.levels(d, c("group", "condition", "stimulus")); gone <- lone$gone
     alike <- alike.for(lone$d, design.of(lone$d)); d <- alike$d; design <- alike$design; factors <- c(design$within, design$between)
-    for (note in c(lone$notes, design$notes)) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = note)
+    for (note in c(lone$notes, design$notes)) result(test, "factors", "note", NA, NA, length(unique(d$participant)), note = note)
   } else design <- list(within = Filter(function(f) any(tapply(level(d, f), d$participant, function(l) length(unique(l))) > 1), factors))
   cell <- do.call(paste, c(list(character(nrow(d))), lapply(design$within, function(f) level(d, f)), sep = "\r"))
   whole.in <- function(of) { n <- tapply(cell[of], d$participant[of], function(own) length(unique(own))); names(n)[n == length(unique(cell[of]))] }
@@ -323,11 +325,11 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   words.of <- function(f) { words <- paste0(f, "=", level(d, f)); words[f == "group" & d$participant %in% unknown] <- NA; words }
   marks <- lapply(factors, words.of)
   if (length(factors) > 1) { all <- do.call(paste, marks); all[d$participant %in% unknown] <- NA; marks <- c(marks, list(all)) }
-  if (length(unknown) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of lines of a group"))
-  if (length(absent <- setdiff(there, c(d$participant, gone))) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = values.lacking(absent))
-  if (length(lacking <- setdiff(d$participant, whole.in(TRUE))) > 0) result(test, "left out", "", NA, NA, length(unique(d$participant)), note = paste0(values.lacking(lacking), ": left out of lines over what they lack"))
+  if (length(unknown) > 0) result(test, "left out", "note", NA, NA, length(unique(d$participant)), note = paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of lines of a group"))
+  if (length(absent <- setdiff(there, c(d$participant, gone))) > 0) result(test, "left out", "note", NA, NA, length(unique(d$participant)), note = values.lacking(absent))
+  if (length(lacking <- setdiff(d$participant, whole.in(TRUE))) > 0) result(test, "left out", "note", NA, NA, length(unique(d$participant)), note = paste0(values.lacking(lacking), ": left out of lines over what they lack"))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
-  if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "", NA, NA, length(unique(d$participant)), note = paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
+  if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "note", NA, NA, length(unique(d$participant)), note = paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
   lines <- expand.grid(group = groups, word = if (k == 2) words[1] else words, stringsAsFactors = FALSE)
   tests <- Map(function(group, word) {
     of <- if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m %in% group))
@@ -477,10 +479,10 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   if (below > 0) design$notes <- c(design$notes, paste(below, if (below == 1) "value is" else "values are", "below 0, so these are no magnitudes: compared as they are (a column task, with adjust, tells of levels that were set)"))
   if (kind == "magnitudes" && length(unique(d$level_db)) > 1) { design$over <- c(design$over, "level_db"); design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over, level by level")) }
   if (NROW(zeros) > 0) design$notes <- c(design$notes, paste0(nrow(zeros), if (nrow(zeros) == 1) " magnitude" else " magnitudes", " of 0, which has no logarithm, left out: ",
-    paste(unique(do.call(paste, zeros[intersect(c("participant", "condition", "stimulus", "level_db"), names(zeros))])), collapse = ", ")))
+    paste(unique(do.call(paste, zeros[intersect(c("participant", "condition", "stimulus", if (length(unique(d$level_db)) > 1) "level_db"), names(zeros))])), collapse = ", ")))
   alike <- alike.for(d, design); groups <- lone.groups(alike$d, alike$design); d <- groups$d; design <- groups$design; factors <- c(design$within, design$between)
   if (length(design$notes) > 0) cat(what, "\n", sep = "")
-  for (note in design$notes) result(what, "factors", "", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over.*", "not tested", note))
+  for (note in design$notes) result(what, "factors", "note", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over.*", "not tested", note))
   if (length(factors) == 0) return(invisible())
   if (length(design$over) > 0) { # a participant's mean of each level first: not the level that has most rows
     y <- if (measure %in% names(d)) as.numeric(d[[measure]]) else as.numeric(d[[column]] == sub("^[^=]*=", "", measure))
@@ -502,7 +504,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   if (length(few(factors)) > 0)
     pairs.test(paste("pairs by", if (kind == "scores") "t" else "ranks", "of", name), d, measure, few(design$within), by = if (kind == "scores") "t" else "ranks",
                correction = if (as.published) "bonferroni" else "holm", between = few(design$between), paired = !as.published)
-  if (length(few(factors)) < length(factors)) result(paste("pairs of", name), "factors", "", NA, NA, length(unique(d$participant)), note = "more than 12 levels")
+  if (length(few(factors)) < length(factors)) result(paste("pairs of", name), "factors", "note", NA, NA, length(unique(d$participant)), note = "more than 12 levels")
 }
 # Several scales, or shares of several alternatives (`all`), ask one question each: Holm's correction over the tests of an effect that could be made. A
 # pair that is all of a factor, as of two levels by ranks, is its test. Other pairs are of alternatives one family, all of a factor; of scales each its own.
@@ -515,7 +517,7 @@ across <- function(tests, what, all, pairs = TRUE) {
   for (one in unique(effect[pairs | !pair])) {
     i <- which(effect == one); results$p_across[at[i]] <<- p.adjust(p[i], "holm"); p.across <- results$p_across[at[i]]
     if (length(i) > 1 || (length(all) > 1 && !grepl("mixed model", one))) cat("over ", what, ", ", one, ": Holm's p of ", length(i), if (length(i) == 1) " test: " else " tests: ", paste(words[i], ifelse(p.across < 1e-4, "< 0.0001",
-                             signif(p.across, 3)), collapse = ", "), if (length(no <- setdiff(all, name[i])) > 0) paste("; none was made of", paste(no, collapse = ", ")), "\n", sep = "")
+                             vapply(p.across, digits.of, "")), collapse = ", "), if (length(no <- setdiff(all, name[i])) > 0) paste("; none was made of", paste(no, collapse = ", ")), "\n", sep = "")
   }
 }
 # Objects that were rated side by side are levels of a factor; one that was also felt openly, the hidden reference, is looked at.
@@ -526,7 +528,7 @@ side.by.side <- function(own, objects, words) {
   if (length(first) != 1 || any(lengths(strsplit(own$parts, "|", fixed = TRUE)) == length(objects))) return(invisible())
   below <- tapply(as.numeric(own[[first]]) < 90, own$participant, mean)
   who <- names(below)[below > 0.15]
-  if (length(who) > 0) result(paste0("hidden reference", words), "hidden reference", "", NA, NA, length(below), note = paste0(first,
+  if (length(who) > 0) result(paste0("hidden reference", words), "hidden reference", "note", NA, NA, length(below), note = paste0(first,
     " unnamed was rated below 90 in more than 15 % of trials by ", paste(who, collapse = ", "), ", whom ITU-R BS.1534 would exclude: not excluded here"))
 }
 # Stimuli that were compared in pairs: means over people as a matrix, and a map by classical scaling. Scores whose scale begins with "dis" or "diff"
@@ -578,6 +580,8 @@ study <- function(study, scales = character(), points = character(), half = "thr
   if (!is.told) points <- union(points, Filter(function(scale) all(d[[scale]] %in% c("", "NA") | suppressWarnings(as.numeric(d[[scale]])) %in% 1:7), scales)) # of other programs
   if (is.told) for (s in Filter(function(s) length(s) > 1, lapply(split(d$session, d$task), unique)))
     cat("sessions ", paste(s, collapse = ", "), " are not compared with each other: a call that names the factor session does\n", sep = "")
+  for (column in c("condition", "stimulus")) if (any(grepl("\\.1$", factor.names(column, d))))
+    cat(column, ".1, ", column, ".2: the first and the second part of ", d[[column]][1], ", and so on\n", sep = "")
   # a trial that ran out of time has no other answer
   for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks", c("group", "condition"))
   # rows of a task, session by session where there are several; of tables without tasks those with the column
@@ -598,7 +602,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
     name <- function(m) if (m %in% names(spoken)) spoken[[m]] else m
     what <- paste0(paste(vapply(measures, name, ""), collapse = ", "), words)
     if (!is.told && length(runs.of(d)) > 0) cat(what, "\n", sep = "")
-    if (!is.told) for (f in runs.of(d)) result(what, "factors", "", NA, NA, length(unique(own$participant)), note = paste0(runs.words(d, f), "all trials together"))
+    if (!is.told) for (f in runs.of(d)) result(what, "factors", "note", NA, NA, length(unique(own$participant)), note = paste0(runs.words(d, f), "all trials together"))
     for (m in measures) compare(paste0(name(m), words, session), own, m, columns = columns)
   })
   spoken <- c(spoken, threshold = half)

@@ -148,6 +148,14 @@ int mostTrialsOf(const SessionPlan& session, std::size_t stimuli) {
     return count * session.repetitions * (session.bothOrders ? 2 : 1);
 }
 
+std::vector<std::string> withoutBreaks(const Protocol& protocol, const SessionPlan& session) {
+    std::vector<std::string> names;
+    for (const ConditionPlan& condition : protocol.conditions)
+        if (mostTrialsOf(session, static_cast<std::size_t>(stimulusCount(condition))) <= session.breakEvery)
+            names.push_back(condition.name);
+    return names;
+}
+
 TrialJob PlannedStimulus::job(const Protocol& protocol) const {
     TrialRecord record;
     record.trial.condition = condition;

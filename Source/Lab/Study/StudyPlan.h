@@ -32,6 +32,9 @@ std::vector<PlannedStimulus> plannedStimuli(const Protocol& protocol);
 /// Trials of a session with so many stimuli; the most where answers decide. Any thread.
 int mostTrialsOf(const SessionPlan& session, std::size_t stimuli);
 
+/// Conditions in which no break of `break_every` comes before the last trial. Any thread (allocates).
+std::vector<std::string> withoutBreaks(const Protocol& protocol, const SessionPlan& session);
+
 /// Number of plays of one part of a stimulus per participant, at one play per trial.
 struct PlannedTrials {
     std::size_t condition = 0;

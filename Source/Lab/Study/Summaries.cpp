@@ -192,12 +192,18 @@ Groups<Trial> byFactor(const std::vector<Trial>& trials, const Groups<Trial>& co
 
 } // namespace
 
-std::string alikeWords(const std::vector<ChoiceSummary>& summaries) {
+std::string intervalNotes(const std::vector<ChoiceSummary>& summaries) {
+    bool areAlike = false, areEqual = false, isCut = false;
     for (const ChoiceSummary& one : summaries)
-        if (one.participants > 1 &&
-            std::ranges::any_of(one.shares, [&](const auto& s) { return one.areAlike(s); }))
-            return ", Wilson's of as many people where all chose one or none did";
-    return {};
+        for (const ChoiceShare& share : one.shares) {
+            if (one.participants < 2) continue;
+            const bool isStudents = !one.areAlike(share) && share.hasInterval();
+            areAlike |= one.areAlike(share), areEqual |= !share.hasInterval();
+            isCut |= isStudents && (share.least == 0.0 || share.most == 1.0);
+        }
+    return std::string{isCut ? ", cut at 0 and 100 %" : ""} +
+           (areAlike ? ", Wilson's of as many people where all chose one or none did" : "") +
+           (areEqual ? ", none where all have the same share" : "");
 }
 
 std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials) {

@@ -127,8 +127,8 @@ struct ChoiceSummary {
     bool areAlike(const ChoiceShare& share) const noexcept { return share.hits == 0 || share.hits == trials; }
 };
 
-/// Where Student's t has no width, ": Wilson's where all chose alike"; else empty. Any thread.
-std::string alikeWords(const std::vector<ChoiceSummary>& summaries);
+/// ", cut at 0 and 100 %", ", Wilson's ...", ", none ...", where Student's t is not the interval. Any thread.
+std::string intervalNotes(const std::vector<ChoiceSummary>& summaries);
 
 /// First all trials together. With several conditions, then each factor of names like "pair=wood size=small"
 /// and each condition, sorted by name. Any thread (allocates).

@@ -186,6 +186,9 @@ ours <- told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes"
 same("logarithms by ranks", line(ours, "group: a - b")$p, exact.p(logs[in.a], logs[!in.a]))
 d$value[3] <- 0; rows(d)
 if (!any(grepl("1 magnitude of 0, which has no logarithm, left out: 02 0$", told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes"))$note))) fault("a magnitude of 0 goes without a word")
+one <- d[d$level_db == 0, ]; one$value[1] <- 0; zero <- told(compare("magnitudes", one, "value", "magnitudes"))
+if (!any(grepl("left out: 01, 02$", zero$note)) || !("note" %in% zero$statistic)) fault("a magnitude of 0 is told with a level that does not vary, or as a test")
+if (digits.of(3e-4) != "0.0003") fault("a small p is", digits.of(3e-4))
 if (!any(grepl("levels (2, column level_db of trials.csv): averaged over", ours$note, fixed = TRUE))) fault("levels that are averaged over are not told")
 # People who lack levels, in a mixed model of all: the likelihood ratios of lmer's own formulas, with factors within and between.
 if (requireNamespace("lme4", quietly = TRUE)) {
