@@ -270,6 +270,7 @@ TEST_F(Report, AnswersAtLevelsOfOtherProgramsGetFunctionsInTheirOwnWords) {
     EXPECT_TRUE(has(html, "Share of answers \u201cfaster\u201d by speed."));
     EXPECT_TRUE(has(html, "with lapse rates of up to 2 % at both ends"));
     EXPECT_TRUE(has(html, "reversals are not looked for"));
+    EXPECT_TRUE(has(html, ", in the unit of speed, ") && !has(html, ", in dB, "));
     for (const char* bad : {"Orders of the conditions", "level (dB)", "Trainings", "own level"})
         EXPECT_FALSE(has(html, bad)) << bad;
     const auto analysed = call("analyse psychometric f.csv --guess 0 --lapse 0" + columns);
@@ -290,6 +291,13 @@ TEST_F(Report, OfOtherProgramsTablesItTellsWhatIsNotAnsweredNotNamedAndGrouped) 
     call("report r.csv --out out --columns participant=who,group=team,condition=glove,ease=ease");
     for (const char* bar : {"condition=on group=y,ease,2,2,40", "group=x,ease,4,2,"})
         EXPECT_TRUE(has(read("out/ratings.csv"), bar)) << bar;
+    std::string one; // stimulus is no factor
+    for (std::size_t at = 0, end; (end = ratings.find('\n', at)) != ratings.npos; at = end + 1)
+        one += ratings.substr(at, end - at) + (at == 0 ? ",what\n" : ",cube\n");
+    write("r.csv", one);
+    call("report r.csv --out one --columns "
+         "participant=who,group=team,condition=glove,stimulus=what,ease=ease");
+    EXPECT_TRUE(has(read("one/ratings.csv"), "condition=on group=y,ease,2,2,40")) << read("one/ratings.csv");
 }
 
 TEST_F(Report, SmallLevelsKeepTheirDigitsAndFewPeopleTheirInterval) {
@@ -360,7 +368,9 @@ TEST_F(Report, WhatWasDoneIsComparedWithThePlan) {
         simulate(name, 4);
         const std::string files = "report " + name + "-P*.csv --plan plan.txt --out ";
         ASSERT_EQ(call(files + name).exitCode, 0) << name;
-        EXPECT_TRUE(has(page(name), "The plan, whose hash is " + hash + ", is of the protocol of these trials")) << hash;
+        EXPECT_TRUE(
+            has(page(name), "The plan, whose hash is " + hash + ", is of the protocol of these trials"))
+            << hash;
         EXPECT_EQ(read("analysis.R"), read(name + "/analysis.R")) << "planned and run are one script";
         EXPECT_TRUE(has(page(name), kept))
             << name << page(name).substr(page(name).find("Planned and done"), 400);

@@ -9,6 +9,13 @@
 namespace physvib {
 namespace {
 
+TEST(Ratings, OnePersonAmongSeveralHasNoInterval) {
+    std::vector<RatingTrial> trials{{"A", "x", {10.0}}, {"A", "x", {90.0}}, {"B", "y", {50.0}}};
+    EXPECT_EQ(summariseRatings(trials).front().halfIntervals, std::vector<double>{0.0});
+    trials.pop_back();
+    EXPECT_GT(summariseRatings(trials).front().halfIntervals.front(), 0.0) << "alone: over trials";
+}
+
 TEST(Proportion, WilsonsIntervalAsTabled) {
     const auto p = proportion(81, 263); // Newcombe 1998: 0.2553 to 0.3662
     EXPECT_NEAR(p.least, 0.2553, 5e-5);

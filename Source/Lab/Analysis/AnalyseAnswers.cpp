@@ -136,17 +136,15 @@ void analyseRatings(const RatingData& data, const Findings& to) {
             const auto known = [&](double spread) { // of one score there is none
                 return summary.scored[s] > 1 ? std::optional{spread} : std::nullopt;
             };
+            const bool isAlone = summary.raters[s] < 2 && summary.halfIntervals[s] == 0.0;
             table.row(summary.condition, scales[s], summary.scored[s], summary.raters[s], summary.means[s],
-                      known(summary.deviations[s]), known(summary.halfIntervals[s]));
+                      known(summary.deviations[s]), isAlone ? std::nullopt : known(summary.halfIntervals[s]));
         }
         out << '\n';
     }
     if (!intervals.empty())
         out << "+-: half of the 95 % interval over "
-            << (intervals.size() > 1       ? "participants, or trials where there was one"
-                : intervals.contains(true) ? "participants"
-                                           : "trials, of one participant")
-            << '\n';
+            << (intervals.contains(true) ? "participants" : "trials, of one participant") << '\n';
     std::set<std::string> conditions;
     for (const auto& session : data.conditions)
         for (const RatingTrial& trial : session.trials)

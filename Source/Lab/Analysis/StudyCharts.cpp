@@ -212,6 +212,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
     LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
+    const bool isOfMany = byParticipant(trials).size() > 1;
     for (const auto& own : psychometricByParticipant(told ? std::vector<LevelAnswer>{} : trials, model)) {
         if (!own.fit.fault.empty()) continue;
         thresholds.push_back(own.fit.function.threshold);
@@ -220,7 +221,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         chart.series.push_back(curve(own.fit.function, least, most));
         chart.series.back().isFaint = true;
     }
-    LineSeries answers{"trials of all participants", {}};
+    LineSeries answers{isOfMany ? "trials of all participants" : "trials", {}};
     answers.isDrawnThrough = false;
     const auto largest = static_cast<double>(std::ranges::max(counts, {}, &LevelCount::trials).trials);
     for (const LevelCount& count : counts) {
@@ -236,7 +237,8 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         if (!widths.empty()) {
             LineSeries mean =
                 curve(model.with(meanOf(thresholds), meanOf(widths), meanOf(lapses)), least, most);
-            mean.name = std::string{"function of the mean "} + words.half(model) + " and width";
+            mean.name = isOfMany ? std::string{"function of the mean "} + words.half(model) + " and width"
+                                 : "function";
             mean.style = 4;
             chart.series.push_back(std::move(mean));
         }

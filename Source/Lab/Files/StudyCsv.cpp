@@ -262,15 +262,19 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     if (!ratings.scales.empty() && ratings.scales != names)
         throw StudyFault{rows.table().name + ": expected the scales of the files before"};
     ratings.scales = names;
+    const bool isOne = stimulus && std::ranges::all_of(rows.table().rows, [&](const CsvRow& row) {
+                           return row.cells[*stimulus] == rows.table().rows.front().cells[*stimulus];
+                       });
     const bool hasGroups = group && std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
                                return !row.cells[*group].empty();
                            });
     return rows.each(AnswerKind::scores, [&](const CsvRow& row) {
-        RatingTrial trial{StudyRows::textIf(row, participant),
-                          kindOf(row, stimulus, StudyRows::textIf(row, condition)),
-                          {}};
+        RatingTrial trial{
+            StudyRows::textIf(row, participant),
+            kindOf(row, hasGroups && isOne ? std::nullopt : stimulus, StudyRows::textIf(row, condition)),
+            {}};
         if (hasGroups)
-            trial.condition.append(StudyRows::textIf(row, stimulus).empty() ? "group=" : " group=")
+            trial.condition.append(trial.condition.ends_with(betweenKinds) ? "group=" : " group=")
                 .append(row.cells[*group].empty() ? "not known" : row.cells[*group]);
         for (const auto c : scales) // of this session; others lack answers
             trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));

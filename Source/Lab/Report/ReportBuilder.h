@@ -33,12 +33,11 @@ public:
     /// Number of participants in the rows, by the column participant; 1 without it.
     std::size_t people() const;
 
-    /// ", 95 % intervals over participants", if there are. Some bars may be of one participant alone.
-    std::string intervals(bool someAlone = false) const {
-        return people() < 2 ? (someAlone ? ", 95 % intervals over trials, of one participant"
-                                         : ", of one participant without intervals")
-               : someAlone  ? ", 95 % intervals over participants, or over trials where there was one"
-                            : ", 95 % intervals over participants";
+    /// ", 95 % intervals over participants", if there are several; of one, `overTrials` or none.
+    std::string intervals(bool overTrials = false) const {
+        return people() > 1 ? ", 95 % intervals over participants"
+               : overTrials ? ", 95 % intervals over trials, of one participant"
+                            : ", of one participant without intervals";
     }
 
     /// Of a version NAME-thesis.
@@ -127,7 +126,7 @@ void tellChoices(ReportBuilder& report);        ///< Fig. 5.8, 5.9
 void tellRatings(ReportBuilder& report);        ///< Fig. 5.13, 5.14
 void tellLevels(ReportBuilder& report); ///< staircases, adjustments, magnitudes; psychometric functions
 /// A chart of each condition's answers, and functions if somebody has one, in the table `name`.
-void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const AnalysisJob& fit,
+void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, AnalysisJob fit,
                    const std::string& name);
 /// Counts answers in words by stimulus; true if there are any.
 bool tellDescriptions(ReportBuilder& report);

@@ -49,8 +49,9 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
     if (charts.empty()) return;
     report.page.subheading("Answers by level");
     report.page.figure(
-        charts, std::string{"Share of answers \u201ccorrect\u201d by level (dB). Circles: all "
-                            "participants' trials, larger where there were more. Dotted: "} +
+        charts, std::string{"Share of answers \u201ccorrect\u201d by level (dB). Circles: "} +
+                    (report.people() > 1 ? "all participants' " : "") +
+                    "trials, larger where there were more. Dotted: " +
                     (isOfMany ? "mean threshold, shaded its 95 % interval over participants" : "threshold") +
                     " (levels.csv).");
 }
@@ -92,8 +93,9 @@ void tellEndsOfRanges(ReportBuilder& report) {
 
 } // namespace
 
-void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, const AnalysisJob& fit,
+void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, AnalysisJob fit,
                    const std::string& name) {
+    fit.columns = report.trials.columns; // whose words it uses
     report.page.subheading("Psychometric functions");
     const bool isFitted = report.analysis("psychometric", fit, name).error.empty();
     const FitWords words = fitWords(report.trials.columns, fit.level, fit.measure);
@@ -112,15 +114,17 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, co
             report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
             condition.trials, model, words));
     const std::string caption = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
-                                ". Circles: all participants' trials, larger where there were more";
+                                ". Circles: " + (report.people() > 1 ? "all participants' " : "") +
+                                "trials, larger where there were more";
     if (!isFitted) return report.page.figure(charts, caption + ".");
     report.page.figure(
         charts,
-        caption + "; thin lines: the function of each participant who has one; thick: that of the mean " +
-            half + " and of the mean of the widths that there are. Dotted: " +
+        caption +
             (report.people() > 1
-                 ? "mean " + half + ", shaded its 95 % interval over participants where there are several. "
-                 : half + ". ") +
+                 ? "; thin lines: the function of each participant who has one; thick: that of the mean " +
+                       half + " and of the mean of the widths that there are. Dotted: mean " + half +
+                       ", shaded its 95 % interval over participants where there are several. "
+                 : "; line: the function. Dotted: " + half + ". ") +
             "The functions are " + report.functions +
             ". The JND is half of what lies between a quarter and three quarters.");
 }

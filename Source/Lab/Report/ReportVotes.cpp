@@ -63,7 +63,9 @@ void tellShares(ReportBuilder& report, const SessionOfChoices& session) {
     report.page.figure(
         {sharesChart(report.frame(inSession("Shares of the alternatives", session.name)), summaries,
                      showsMedians(report))},
-        inSession((showsMedians(report) ? "Median" : "Mean") + std::string{" of the participants' shares"},
+        inSession(report.people() < 2 ? std::string{"Shares of the alternatives"}
+                                      : (showsMedians(report) ? "Median" : "Mean") +
+                                            std::string{" of the participants' shares"},
                   session.name) +
             report.asThesis(showsMedians(report) ? "Fig. 5.8" : "Fig. 5.8, which has medians") +
             shareIntervals(report, summaries) + ". Chance: 1 of the " +
@@ -75,14 +77,13 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
     const auto summaries = summariseRatings(session.trials);
     std::set<std::string> conditions;
     for (const RatingTrial& trial : session.trials) conditions.insert(trial.condition);
-    const bool isSomeAlone = std::ranges::any_of(summaries, [](const RatingSummary& one) {
-        return one.participants == 1 &&
-               std::ranges::any_of(one.halfIntervals, [](double half) { return half > 0.0; });
+    const bool hasIntervals = std::ranges::any_of(summaries, [](const RatingSummary& one) {
+        return std::ranges::any_of(one.halfIntervals, [](double half) { return half > 0.0; });
     });
     const auto draw = [&](const char* words, const char* figure, const std::vector<RatingSummary>& shown) {
         const std::string title = inSession(words, session.name);
         report.page.figure({scoresChart(report.frame(title), data.scales, shown)},
-                           title + report.asThesis(figure) + report.intervals(isSomeAlone) + ".");
+                           title + report.asThesis(figure) + report.intervals(hasIntervals) + ".");
     };
     // In reverse order, so that AV-FV-DRV comes first; of many combinations the levels of factors.
     const bool isMany = conditions.size() > mostShown && summaries.size() > conditions.size();

@@ -298,8 +298,9 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
     }
     if (by == "t" && is.within && tested > 0) for (alpha in unique(c(0.05, 0.05 / tested))) attempt(test, "power", {
       of <- if (nlevels(groups) > 1) table(groups) else n
-      found <- uniroot(function(d) pt(qt(1 - alpha / 2, n - length(of)), n - length(of), d * length(of) / sqrt(sum(1 / of)), lower.tail = FALSE) - 0.8, c(0, 100), tol = 1e-9)$root
-      cat("  power: n = ", n, if (length(of) > 1) paste0(" in ", length(of), " groups, ", n - length(of), " degrees of freedom,"), " finds d_z = ", round(found, 2), " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
+      lacks <- function(d) pt(qt(1 - alpha / 2, n - length(of)), n - length(of), d * length(of) / sqrt(sum(1 / of)), lower.tail = FALSE) - 0.8
+      found <- if (lacks(10) < 0) "no d_z of up to 10" else paste("d_z =", round(uniroot(lacks, c(0, 10), tol = 1e-9)$root, 2))
+      cat("  power: n = ", n, if (length(of) > 1) paste0(" in ", length(of), " groups, ", n - length(of), " degrees of freedom,"), " finds ", found, " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
     })
   }
 }) }

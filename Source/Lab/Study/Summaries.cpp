@@ -152,7 +152,8 @@ std::vector<double> participantMeans(const Chosen& trials, std::size_t scale) {
     return means;
 }
 
-RatingSummary summarise(const std::string& condition, const Chosen& trials) {
+/// Of several people, one person's trials tell no interval.
+RatingSummary summarise(const std::string& condition, const Chosen& trials, bool ofSeveral) {
     RatingSummary summary{condition, trials.size(), 0, {}, {}, {}, {}, {}};
     for (std::size_t scale = 0; scale < trials.front()->scores.size(); ++scale) {
         std::vector<double> scores;
@@ -165,7 +166,7 @@ RatingSummary summarise(const std::string& condition, const Chosen& trials) {
         summary.participants = std::max(summary.participants, means.size());
         summary.means.push_back(scores.empty() ? std::nan("") : Moments(means).mean);
         summary.deviations.push_back(moments.deviation);
-        summary.halfIntervals.push_back(Moments(means.size() > 1 ? means : scores).halfInterval());
+        summary.halfIntervals.push_back(Moments(ofSeveral ? means : scores).halfInterval());
     }
     return summary;
 }
@@ -227,9 +228,11 @@ std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& tria
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials) {
     std::vector<RatingSummary> summaries;
     const auto conditions = byCondition(trials);
-    for (const auto& [condition, own] : conditions) summaries.push_back(summarise(condition, own));
+    const bool ofSeveral = std::ranges::any_of(
+        trials, [&](const RatingTrial& one) { return one.participant != trials.front().participant; });
+    for (const auto& [condition, own] : conditions) summaries.push_back(summarise(condition, own, ofSeveral));
     for (const auto& [factor, own] : byFactor(trials, conditions))
-        if (own.size() < trials.size()) summaries.push_back(summarise(factor, own));
+        if (own.size() < trials.size()) summaries.push_back(summarise(factor, own, ofSeveral));
     return summaries;
 }
 

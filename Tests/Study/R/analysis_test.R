@@ -481,5 +481,11 @@ d$y <- rnorm(nrow(d)); d$group <- ifelse(as.integer(d$participant) < 6, "g", "h"
 words <- capture.output({ ours <- anova.test("t", "trials.csv", "y", c("condition", "stimulus"), between = "group"); pairs.test("t", "trials.csv", "y", "condition", between = "group") })
 for (one in c("sums of squares of type III, contrasts that sum to 0", "power: n = 9 in 2 groups, 7 degrees of freedom, finds", "normality of the participants' means, as deviations from the group's mean"))
   if (!any(grepl(one, words, fixed = TRUE))) fault("not told:", one)
+# Power of two people; names in two parts.
+d <- expand.grid(condition = paste0("c", 1:5), participant = person(2), stringsAsFactors = FALSE); d$y <- rnorm(10); rows(d)
+few <- capture.output(pairs.test("t", "trials.csv", "y", "condition"))
+if (sum(grepl("n = 2 finds no d_z of up to 10 in 80 % of studies", few, fixed = TRUE)) != 2) fault("power of two people is not told:", few)
+d <- expand.grid(condition = c("low-short", "low-long", "high-short", "high-long"), participant = person(4), stringsAsFactors = FALSE); d$y <- rnorm(16); whole(d, "y")
+if (!("condition.1, condition.2: the first and the second part of low-short, and so on" %in% spoken.words)) fault("what condition.1 is goes without a word")
 cat(faults, "faults\n")
 quit(status = if (faults > 0) 1 else 0)
