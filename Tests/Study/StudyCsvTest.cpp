@@ -26,8 +26,7 @@ TEST(StudyCsv, TrialsWithoutAResponseAreLeftOutAndTold) {
     const auto data = readOne(readIdentification, "stimulus,response\nx,x\ny,\nz,\n");
     ASSERT_TRUE(data) << data.error;
     EXPECT_EQ(data.value.conditions.front().trials.size(), 1u);
-    EXPECT_EQ(data.value.warnings,
-              std::vector<std::string>{"f.csv: 2 trials without a response left out"});
+    EXPECT_EQ(data.value.warnings, std::vector<std::string>{"f.csv: 2 trials without a response left out"});
     EXPECT_EQ(readOne(readIdentification, "stimulus,response\ny,\n").error,
               "f.csv: expected trials of this kind, found none");
 }

@@ -82,8 +82,13 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
     });
     const auto draw = [&](const char* words, const char* figure, const std::vector<RatingSummary>& shown) {
         const std::string title = inSession(words, session.name);
-        report.page.figure({scoresChart(report.frame(title), data.scales, shown)},
-                           title + report.asThesis(figure) + report.intervals(hasIntervals) + ".");
+        report.page.figure(
+            {scoresChart(report.frame(title), data.scales, shown)},
+            title + report.asThesis(figure) + report.intervals(hasIntervals) +
+                (report.people() > 1 && std::ranges::count(shown, 1, &RatingSummary::participants) > 0
+                     ? ", none of one alone"
+                     : "") +
+                ".");
     };
     // In reverse order, so that AV-FV-DRV comes first; of many combinations the levels of factors.
     const bool isMany = conditions.size() > mostShown && summaries.size() > conditions.size();
