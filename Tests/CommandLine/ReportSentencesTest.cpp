@@ -118,6 +118,9 @@ std::vector<Sentence> sentences() {
         if (row["participant"] == "P2" && row["trial"] == "1")
             row["response"] = row["stimulus"] == "1,1" ? "1,2" : "1,1";
     };
+    const Edit aloneIn300 = [=](Row& row) {
+        if (row["session"] == "early") firstOfP2("stimulus", "300")(row);
+    };
     const Edit equal = [](Row& row) {
         if (row["task"] == "choose") row["choice"] = std::stoi(row["trial"]) % 2 ? "model" : "SV";
     };
@@ -272,7 +275,7 @@ std::vector<Sentence> sentences() {
         {"1 magnitude of 0, which has no logarithm, left out: of P2 in ",
          of(numbers, 3, firstOfP2("value", "0")), of(numbers, 3)},
         {", 95 % intervals over trials, of one participant", of(methods, 1), of(methods, 3)},
-        {"intervals over participants, none of one alone.", of(twice, 3, firstOfP2("stimulus", "300"), true),
+        {"intervals over participants, none of one alone.", of(twice, 3, aloneIn300, true),
          of(twice, 3, {}, true)},
         {"Mean percent correct (as thesis Fig. 3.12, 4.3)", of(builtIn("patterns"), 2), of(grid, 3)},
         {"Percent correct by place", of(grid, 3), of(names, 3)},
