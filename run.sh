@@ -12,9 +12,17 @@ programs() {
     ensure_build_packages $physvib_run_packages $(case " $* " in *" physvib-virtual-board "*) echo "$physvib_board_packages" ;; esac)
     build release "$@"
 }
+# Refused before anything is installed: what is no program of ours.
+for name in "$@"; do
+    case $name in
+    -h | --help) sed -n '3,/^set/{/^#/s/^# //p}' run.sh && exit 0 ;;
+    physvib | physvib-*) ;;
+    *) say "$name: expected programs, as: ./run.sh physvib physvib-mixer; options are those of the program, once it is built" && exit 2 ;;
+    esac
+done
 if [ $# -gt 0 ]; then
     programs "$@"
-    for name in "$@"; do echo "build/release/bin/$name"; done
+    for name in "$@"; do [ ! -x "build/release/bin/$name" ] || echo "build/release/bin/$name"; done
     sed -n 's/^-- \(JUCE [0-9].*\)/\1/p' build/release.log 2>/dev/null || :
     # shellcheck disable=SC2016 # for the reader's shell
     echo 'Pages call it by its name alone; for that, here: export PATH="$PWD/build/release/bin:$PATH"'

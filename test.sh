@@ -5,6 +5,11 @@
 set -eu
 cd "$(dirname "$0")"
 . .ci/packages.sh
+case ${1:-} in
+"") ;;
+-h | --help) sed -n '3,/^set/{/^#/s/^# //p}' test.sh && exit 0 ;;
+*) say "$1: expected nothing: ./test.sh runs every test. Some of them, once it is built: ctest --preset release -R $1" && exit 2 ;;
+esac
 
 # shellcheck disable=SC2086 # a list of words
 ensure_build_packages $physvib_test_packages

@@ -19,8 +19,8 @@ enum class PanningLaw {
     neighbours, ///< energy, shared by the actuators around the place: two of a row or belt, four of a grid
     automatic,  ///< what one gets without naming a law; PhantomPanner chooses by the layout's shape
     distance,   ///< energy, shared by all actuators of any layout by their distance in space
-    triangles ///< energy, shared by the corners of the triangle of a layout in space that the place is in the
-              ///< direction of; `neighbours` on a flat layout
+    /// energy, shared by the corners of the triangle in space that the place lies in; flat: `neighbours`
+    triangles,
 };
 
 /// One panning law.

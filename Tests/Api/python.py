@@ -200,7 +200,7 @@ class Package(unittest.TestCase):
             physvib.events(np.zeros((2, 2)), frequency_hz=200.0, decay_per_s=30.0)
 
     def test_refusals_say_what_was_expected(self) -> None:
-        for wrong, line in ((lambda: physvib.Layout.preset("phone9"), "phone1 to phone4"), (lambda: physvib.Renderer(rate_hz=1), "5000 to 192000"),
+        for wrong, line in ((lambda: physvib.Layout.preset("phone9"), "expected phone1 to phone"), (lambda: physvib.Renderer(rate_hz=1), "5000 to 192000"),
                             (lambda: physvib.render(many(2)[::-1], 1.0), "order of their times"), (lambda: physvib.render(np.zeros(3), 1.0), "physvib.EVENT"),
                             (lambda: physvib.load_events("/nowhere.csv"), "/nowhere.csv"),
                             (lambda: physvib.events(np.nan, frequency_hz=1.0, decay_per_s=1.0), "10^8 s")):

@@ -12,6 +12,7 @@ printf '%s\n' ". '$root/.ci/packages.sh'" 'ensure_packages() { :; }' 'ensure_bui
 cp "$bin/physvib-render" "$folder/build/first/bin"
 printf '#!/bin/sh\necho "the mixer is open"\n' >"$folder/build/release/bin/physvib-mixer"
 chmod +x "$folder/build/release/bin/physvib-mixer"
+cp "$folder/build/release/bin/physvib-mixer" "$folder/build/release/bin/physvib"
 cd "$folder"
 DISPLAY='' ./run.sh >told
 next=$(sed -n 's/  renders a list of impacts.*//p' told)
