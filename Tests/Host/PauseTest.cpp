@@ -189,7 +189,7 @@ TEST(Pause, ADeviceThatIsGoneIsToldAndSoIsWhatWasDropped) {
     for (int k = 0; k < 3; ++k) EXPECT_FALSE(rig.session().submit({Strikes{{&tone, 1}}}));
     rig.maintain();
     EXPECT_EQ(rig.trouble(), "Fake:hands has stopped; it is looked for every second, and time stands still; "
-                             "dropped: 3 events, as no device ran");
+                             "3 events were lost, as no device ran");
     rig.maintain();
     EXPECT_EQ(rig.trouble(), "Fake:hands has stopped; it is looked for every second, and time stands still")
         << "told once";

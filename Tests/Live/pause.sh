@@ -56,7 +56,7 @@ for k in $(seq 100 119) $(seq 300 319); do
     grep -q "{ \"answer\": \"error\", \"id\": $k, \"reason\": \"strike: no device runs: dropped\" }" "$folder/report"
 done
 grep -q "JACK:system does not ask for samples: nothing is felt, and time stands still" "$folder/told"
-grep -q "dropped: 20 events, as no device ran" "$folder/told"
+grep -q "20 events were lost, as no device ran" "$folder/told"
 grep -q "; 3 events left, 0 late, [4-9][0-9] dropped, 0 refused" "$folder/report"
 grep -q "at the outputs: peaks 0.100 0.100 0.100 0.100 of full scale" "$folder/report"
 grep -q "JACK:system has stopped; it is looked for every second" "$folder/told"

@@ -312,6 +312,7 @@ TEST(Arrangement, APageWithoutRoomScrolls) {
     Window w;
     w.view.setSize(1280, 720);
     w.view.tabs().choose("Output");
+    w.view.refresh(); // what it says takes room
     auto* page = w.view.tabs().find<OutputTab>();
     EXPECT_GE(page->getHeight(), page->minHeight(page->getWidth()));
     auto* viewport = page->findParentComponentOfClass<juce::Viewport>();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // No text of the window is cut or crushed, on any page, in small and large windows, with up to 64 actuators.
 #include "CutTexts.h"
+#include "Mixer/Studies/StudiesTab.h"
 #include "MixerTesting.h"
 
 namespace physvib {
@@ -112,6 +113,44 @@ TEST(CutTexts, AreOnNoPageAtAnySize) {
 }
 
 // A tooltip has as many lines as its words take in the one size.
+TEST(CutTexts, NamesAreBrokenNowhereAndALongFolderShowsItsEnd) {
+    CutTexts texts{1024, 900, 4};
+    texts.view.tabs().choose("Studies");
+    auto& studies = *texts.view.tabs().find<StudiesTab>();
+    studies.chooseProtocol("patterns");
+    studies.setFolder(juce::File{"/home/" + juce::String::repeatedString("a folder of many letters/", 4)});
+    const auto& folder = dynamic_cast<juce::TextEditor&>(*find(texts.view, "Folder of the trial files"));
+    EXPECT_EQ(folder.getCaretPosition(), folder.getText().length());
+    for (int width = MixerView::minWidth; width < 1500; width += 20) {
+        texts.view.setSize(width, 900);
+        for (const auto& word : readTexts(studies).words) EXPECT_FALSE(word.endsWith("-")) << width << word;
+    }
+}
+
+TEST(CutTexts, ASilencedMixerHasNothingThatRingsAndThePanelOfABodyHasWholeLines) {
+    CutTexts texts{1440, 900, 4};
+    texts.model.setSilent(true);
+    for (int k = 0; k < 13; ++k) texts.view.refresh();
+    EXPECT_TRUE(readTexts(*find(texts.view, "Transport and device")).words.contains("silenced"));
+    texts.view.world().drawing().use(DrawTool::choose);
+    for (int more = 0; more < 3; ++more) { // as many materials fill a row
+        texts.view.world().drawing().choose({texts.model.world().drawing().drawn().bodies.back().name});
+        auto& panel = *find(texts.view, "Chosen bodies");
+        EXPECT_TRUE(readTexts(panel).words.contains("hapticsource"));
+        const auto& materials = texts.model.world().drawing().drawn().materials;
+        EXPECT_EQ(find(panel, "New material for what is chosen")->getY(),
+                  find(panel, "Made of " + utf8(materials.back().name))->getY())
+            << materials.size();
+        texts.model.change("More", [&](Mix& mix) {
+            Scene scene = texts.model.world().drawing().drawn();
+            scene.materials.push_back(scene.materials.front());
+            scene.materials.back().name = "more " + std::to_string(more);
+            mix.scene = std::make_shared<const Scene>(scene);
+        });
+        texts.model.dispatchPendingMessages();
+    }
+}
+
 TEST(Tooltips, HaveOneSizeOfLetters) {
     struct Sizes final : LetterRenderer {
         using LetterRenderer::LetterRenderer;

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A material or a body that is not felt at usual impacts says so, and one press makes it felt.
+#include "Host/FakeAudioDevice.h"
+#include "Mixer/Model/MixerDevice.h"
 #include "NewSceneRig.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/Drawing/FeltTrial.h"
@@ -130,6 +132,26 @@ TEST(FeltHint, LevelsThatLetNothingBeFeltAreToldOnceAndNoLongerThanTheyDo) {
     EXPECT_EQ(told(), "Nothing is felt: every strip's fader is down");
     model.undoManager().undo();
     EXPECT_EQ(told(), "");
+}
+
+TEST(FeltHint, OutputsThatLetNothingBeFeltAreToldUnlessOneListens) {
+    FakeInterface hands;
+    MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
+    MixerView view{model};
+    const auto told = [&] { return model.dispatchPendingMessages(), model.trouble(); };
+    const auto only = [&](std::size_t placed) {
+        model.change("Outputs", [&](Mix& mix) {
+            for (std::size_t j = 0; j < mix.strips.size(); ++j)
+                mix.strips[j].output = j < placed ? static_cast<int>(j) : -1,
+                mix.strips[j].isMuted = j < placed;
+        });
+    };
+    only(0);
+    EXPECT_EQ(told(), "Nothing is felt: no strip has an output");
+    only(2);
+    EXPECT_EQ(told(), "Nothing is felt: every strip is muted, or has no output");
+    ASSERT_EQ(model.device().listening().monitor({4, 5}, -20.0), "");
+    EXPECT_EQ(told(), "") << "it is heard";
 }
 
 } // namespace

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the strips say of outputs is what the device plays, whatever is chosen, refused, saved and opened.
+#include "CutTexts.h"
 #include "Host/FakeAudioDevice.h"
 #include "Live/Documents/SessionFile.h"
 #include "Mixer/Model/MixerDevice.h"
+#include "Mixer/Output/TelemetryTab.h"
 #include "MixerTesting.h"
 #include "Stimuli/SeededRandom.h"
 
@@ -273,6 +275,30 @@ TEST(Headphones, ThoseOfAFourActuatorMixerAreToldAndTheLevelIsLow) {
     EXPECT_TRUE(routed.model.device().choice().monitor.empty()) << "A and B are heard in its place";
     EXPECT_EQ(routed.model.device().choice().marker, -1);
     routed.expectAsShown("headphones");
+}
+
+TEST(Headphones, ThatAreGoneAreHeardByNobodyAndWhoHasNoEarStaysStruckOut) {
+    FakeInterface hands;
+    MixerModel model{fakeDrivers({&hands}), {"Fake:hands", 0, 0}};
+    MixerView view{model};
+    view.setSize(1024, 700);
+    view.tabs().choose("Output");
+    const auto& facts = dynamic_cast<FactList&>(*find(view, "What follows from it"));
+    ASSERT_EQ(useHeadphones(model, model.device().choice()), "");
+    const auto heard = [&] {
+        view.refresh();
+        for (const auto& fact : facts.facts())
+            if (fact.name == "Heard") return fact.value;
+        return juce::String{};
+    };
+    EXPECT_EQ(heard(), "left: A, right: B");
+    EXPECT_GE(facts.getHeight(), facts.heightFor(facts.getWidth())) << "no row is cut";
+    hands.unplug(true);
+    ASSERT_TRUE(runUntil([&] { return model.look(), model.trouble().contains("has stopped"); }));
+    EXPECT_EQ(heard(), "by nobody: the device is not there");
+    for (const auto& cut : readTexts(*find(view, "Transport and device")).cut) ADD_FAILURE() << cut.words;
+    EXPECT_TRUE(model.device().isPlayed(1));
+    EXPECT_FALSE(model.device().isPlayed(2));
 }
 
 TEST(Headphones, GiveTheOutputsOfBeforeBackAndTakeTheirMessageAlong) {

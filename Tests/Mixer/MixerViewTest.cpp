@@ -324,6 +324,19 @@ TEST(MixerView, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {
     EXPECT_TRUE(model.trouble().isEmpty());
 }
 
+TEST(MixerView, AMessageCoversNoBadge) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    view.setSize(1280, 800);
+    model.report("session.json: expected 0.01 to 100, found 0");
+    model.dispatchPendingMessages();
+    const auto& banner = *find(view, "Trouble");
+    ASSERT_TRUE(banner.isVisible());
+    auto& world = view.world().view();
+    for (const auto& badge : world.badges())
+        EXPECT_FALSE(view.getLocalArea(&world, badge.toNearestInt()).intersects(banner.getBounds()));
+}
+
 TEST(MixerView, AMessageIsFoundByItsLabel) {
     MixerModel model{onlyNoDevice(), noDevice};
     auto& messages = model.messages();

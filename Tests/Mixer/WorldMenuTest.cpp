@@ -308,6 +308,26 @@ TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
     EXPECT_NE(inspector->getBounds(), there) << "after an edit it makes room";
 }
 
+TEST(Inspector, HasAPlaceOfItsOwnWhereverTheBodyIs) {
+    for (const auto& [width, height] : {std::pair{1440, 900}, {1024, 700}}) {
+        Field f;
+        f.view.setSize(width, height);
+        f.view.setMode(width > 1200 ? Mode::engineer : Mode::play);
+        f.pane.use(DrawTool::choose);
+        auto* inspector = find(f.panel, "Chosen bodies");
+        std::vector<juce::Rectangle<int>> places;
+        for (const double y : {0.2, 0.5, 0.8}) {
+            f.add(DrawTool::ball, 0.45, y);
+            f.pane.use(DrawTool::choose);
+            f.pane.choose({f.drawn().bodies.back().name});
+            f.view.refresh();
+            places.push_back(inspector->getBounds());
+        }
+        EXPECT_TRUE(places[0] == places[1] && places[1] == places[2])
+            << width << ": " << places[0].toString() << "; " << places[2].toString();
+    }
+}
+
 TEST(Badges, OfSixtyFourActuatorsEachShowsItsWholeLabel) {
     Field f;
     while (f.model.mix().count() < 64 && f.model.attach(0.5, 0.5)) {

@@ -156,8 +156,7 @@ private:
     std::vector<Action> add(Result<BodyDescription> body) {
         if (!body) return {};
         body.value.name = drawn_.drawing.freeName("body");
-        if (startsAsSource(drawn_.drawing.drawn(), body.value))
-            setSource(drawn_.drawing.drawn(), body.value, true);
+        if (startsAsSource(body.value)) setSource(drawn_.drawing.drawn(), body.value, true);
         return {SpawnAction{body.value, {}}};
     }
     Drawn& drawn_;

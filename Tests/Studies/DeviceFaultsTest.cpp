@@ -276,7 +276,7 @@ TEST_F(DeviceFaults, NothingBeginsWithoutAnOutputForEachActuator) {
     file.replaceWithText(
         R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", "layout": "phone4", "stimuli": "patterns", "enchanters": 4}], "sessions": [{"name": "main", "task": "identify"}]})");
     ASSERT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
-    EXPECT_EQ(p->tab().begin(), "phone4: expected 4 actuators in the mixer, found 1");
+    EXPECT_EQ(p->tab().begin(), "phone4 needs 4 actuators, the mixer has 1: choose a preset under Actuators");
     p->model.change("Four", [](Mix& mix) {
         mix.layout = presetLayout("phone4");
         mix.resizeStrips();

@@ -318,7 +318,9 @@ std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::C
     struct Ring final : juce::FocusOutline::OutlineWindowProperties {
         juce::Rectangle<int> getOutlineBounds(juce::Component& c) override {
             of = &c;
-            const auto ring = c.getScreenBounds().expanded(2);
+            constexpr int handle = 30; // a fader's scale begins beside it
+            auto ring = c.getScreenBounds().expanded(2);
+            if (c.getProperties()[faderProperty]) ring = ring.withSizeKeepingCentre(handle, ring.getHeight());
             const auto* parent = c.getParentComponent(); // cuts what is outside it
             return parent ? ring.getIntersection(parent->getScreenBounds()) : ring;
         }

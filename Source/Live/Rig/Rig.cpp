@@ -72,7 +72,9 @@ void Rig::step() {
 }
 
 std::string droppedWords(std::uint64_t events) {
-    return events == 0 ? "" : "dropped: " + std::to_string(events) + " events, as no device ran";
+    return events == 0 ? ""
+                       : std::to_string(events) + (events == 1 ? " event was" : " events were") +
+                             " lost, as no device ran";
 }
 
 void Rig::maintain() {

@@ -276,7 +276,9 @@ bool isSource(const BodyDescription& body) {
 }
 
 void setMoving(BodyDescription& body, bool moves) {
-    if (!isLine(body)) body.type = moves ? BodyType::dynamicBody : BodyType::staticBody;
+    if (isLine(body)) return;
+    body.type = moves ? BodyType::dynamicBody : BodyType::staticBody;
+    if (!moves) body.velocityMetresPerSecond = {}; // or it would be a belt
 }
 
 } // namespace physvib

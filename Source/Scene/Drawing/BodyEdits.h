@@ -35,7 +35,7 @@ void setSource(const Scene& scene, BodyDescription& body, bool isSource);
 /// Any part of it is one. Any thread.
 bool isSource(const BodyDescription& body);
 
-/// Makes a body static or dynamic. A line stays static. Any thread.
+/// Makes a body static, at rest, or dynamic. A line stays static. Any thread.
 void setMoving(BodyDescription& body, bool moves);
 
 /// Moves bodies, at rest, with their joints; bodies joined to them return to their start. Any thread.
@@ -120,9 +120,8 @@ Result<BodyDescription> drawnWall(const Vector& from, const Vector& to, double t
 /// A static line along a drawn path that collides on both sides, within `toleranceMetres` of the path.
 Result<BodyDescription> drawnLine(const std::vector<Vector>& way, double toleranceMetres);
 
-/// True if a new body should be a haptic source: it moves, and other moving bodies are sources, or there are
-/// none, or the scene has no source at all. Any thread.
-bool startsAsSource(const Scene& scene, const BodyDescription& body);
+/// True if a new body should be a haptic source: it moves. Any thread.
+bool startsAsSource(const BodyDescription& body);
 
 /// The nearest multiple of `gridMetres`; 0: unchanged. Any thread.
 Vector snapped(const Vector& place, double gridMetres);

@@ -176,19 +176,7 @@ Result<BodyDescription> drawnLine(const std::vector<Vector>& way, double toleran
     return bodyOf(ChainShape{corners, false}, at, BodyType::staticBody);
 }
 
-bool startsAsSource(const Scene& scene, const BodyDescription& body) {
-    if (body.type != BodyType::dynamicBody) return false;
-    bool isAny = false, movesAny = false;
-    for (const BodyDescription& other : scene.bodies) {
-        const bool moves = other.type == BodyType::dynamicBody;
-        movesAny = movesAny || moves;
-        for (const FixtureDescription& fixture : other.fixtures) {
-            if (fixture.isCamera && moves) return true;
-            isAny = isAny || fixture.isCamera;
-        }
-    }
-    return !isAny || !movesAny;
-}
+bool startsAsSource(const BodyDescription& body) { return body.type == BodyType::dynamicBody; }
 
 Vector snapped(const Vector& place, double gridMetres) {
     if (gridMetres <= 0.0) return place;

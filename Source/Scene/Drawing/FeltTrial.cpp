@@ -104,7 +104,7 @@ std::string whyNotFelt(const Scene& scene, int material) {
     if (!ball) return ball.error;
     for (auto& fixture : ball.value.fixtures) fixture.material = material;
     const bool sounds = scene.materials[static_cast<std::size_t>(material)].frequencyHz > 0.0;
-    if (sounds && startsAsSource(scene, ball.value)) setSource(scene, ball.value, true);
+    if (sounds && startsAsSource(ball.value)) setSource(scene, ball.value, true);
     return whyNotFelt(scene, ball.value);
 }
 

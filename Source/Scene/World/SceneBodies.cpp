@@ -88,7 +88,7 @@ b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& bo
     def.type = typeOf(body.type);
     def.position = box2dVector(start.positionMetres);
     def.angle = static_cast<float>(start.angleRadians);
-    def.linearVelocity = box2dVector(start.velocityMetresPerSecond);
+    if (body.type != BodyType::staticBody) def.linearVelocity = box2dVector(start.velocityMetresPerSecond);
     def.angularVelocity = static_cast<float>(body.spinRadiansPerSecond);
     def.linearDamping = static_cast<float>(body.linearDampingPerSecond);
     def.angularDamping = static_cast<float>(body.angularDampingPerSecond);

@@ -181,7 +181,16 @@ bool SceneWorld::act(std::int64_t step) {
     destroyRemoved(step);
     const bool live = actOnInputs(step), script = actOnScript(step);
     grips_.move(step + 1);
+    for (const auto& [number, body] : bodies_) runBelt(body);
     return live || script;
+}
+
+// Box2D's friction drives what touches it, on either side; a contact is there a step before it touches.
+void SceneWorld::runBelt(const Body& body) {
+    const auto speed = static_cast<float>(body.described.velocityMetresPerSecond.x);
+    if (body.described.type != BodyType::staticBody || speed == 0.0F) return;
+    for (b2ContactEdge* edge = body.body->GetContactList(); edge != nullptr; edge = edge->next)
+        edge->contact->SetTangentSpeed(speed);
 }
 
 // They have had neither contacts nor entries in Box2D's tree since they were disabled, so the order of the

@@ -328,6 +328,7 @@ private:
     template <class One>
     requires std::is_class_v<One>
     bool act(const One& action);
+    static void runBelt(const Body& body);
     void retire(std::size_t number);
     void moveJoints(b2Body& from, b2Body& to);
     void dropJoints(b2Body& body);

@@ -434,8 +434,8 @@ void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width,
     g.setColour(shade(tab_, sounds ? Shade::text : Shade::muted));
     g.drawText(utf8(m.name), at.name, juce::Justification::centredLeft, true);
     if (!sounds)
-        return g.drawText("silent here", at.frequency.getUnion(at.length), juce::Justification::centredRight,
-                          true);
+        return g.drawText("does not vibrate", at.frequency.getUnion(at.length),
+                          juce::Justification::centredRight, true);
     g.drawText(frequencyText(m.frequencyHz), at.frequency, juce::Justification::centredRight, true);
     g.drawText(decayText(m.decayPerSecond), at.decay, juce::Justification::centredRight, true);
     g.drawText(number(1e3 * decibelsOfDecay / 20.0 * std::log(10.0) / m.decayPerSecond, 0) + " ms", at.length,

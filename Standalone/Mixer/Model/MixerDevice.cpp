@@ -29,9 +29,9 @@ std::string MixerDevice::open(const DeviceChoice& choice) {
 bool MixerDevice::isNone() const { return rig_.output().device().starts_with(noDeviceType); }
 
 bool MixerDevice::isPlayed(std::size_t actuator) const {
-    if (!choice_.sinks.empty() || isNone() || outputs() == 0) return true;
+    if (!choice_.sinks.empty() || isNone()) return true;
     const int output = mix_.strips[actuator].output;
-    return output >= 0 && output < outputs();
+    return output >= 0 && (output < outputs() || outputs() == 0); // a device that is gone may come back
 }
 
 std::vector<int> MixerDevice::outputMap() const {

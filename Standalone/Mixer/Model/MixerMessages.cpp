@@ -124,10 +124,16 @@ void hintOnMaterial(MixerModel& model, int material) {
     showHint(model, asked.name, whyNotFelt(scene, material), std::move(mend));
 }
 
-juce::String whySilent(const Mix& mix) {
+juce::String whySilent(const MixerModel& model) {
+    const Mix& mix = model.mix();
     const auto all = std::views::iota(0, mix.count());
+    const auto isPlayed = [&](int j) { return model.device().isPlayed(static_cast<std::size_t>(j)); };
     if (masterGain(mix) == 0.0f) return "the master is at " + number(leastStripDb, 0) + " dB";
     if (std::ranges::all_of(all, [&](int j) { return mix.isSilent(j); })) return "every strip is muted";
+    const bool isHeard = !model.device().listening().settings().contacts.empty();
+    if (!isHeard && std::ranges::none_of(all, isPlayed)) return "no strip has an output";
+    if (!isHeard && std::ranges::none_of(all, [&](int j) { return isPlayed(j) && !mix.isSilent(j); }))
+        return "every strip is muted, or has no output";
     const bool areDown = std::ranges::all_of(
         all, [&](int j) { return loudestDb(mix, static_cast<std::size_t>(j)) <= leastStripDb; });
     return areDown ? "every strip's fader is down" : "";

@@ -97,7 +97,7 @@ void hintOnMaterial(MixerModel& model, int material);
 void hintOnBody(MixerModel& model, const std::string& body);
 
 /// Why these levels let nothing be felt, whatever plays; empty: they do not. Any thread.
-juce::String whySilent(const Mix& mix);
+juce::String whySilent(const MixerModel& model);
 void hintOnLevels(MixerModel& model, const juce::String& why);
 
 } // namespace physvib

@@ -220,6 +220,8 @@ void OutputTab::chooseMarks() {
 juce::String OutputTab::heardWords() const {
     const auto& sent = model_.device().listening().settings();
     juce::String words;
+    if (!model_.device().isNone() && model_.device().outputs() == 0)
+        return "by nobody: the device is not there";
     if (model_.device().choice().isHeadphones)
         for (int ear = 0; ear < DeviceChoice::ears; ++ear)
             words << (ear == 0 ? "left:" : ", right:")

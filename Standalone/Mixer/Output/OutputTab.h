@@ -13,7 +13,10 @@ public:
     void mixChanged() override;
     void refresh(const MixerMoment& moment) override;
     void resized() override;
-    int minHeight(int) const override { return 412; } // all of its facts
+    int minHeight(int width) const override {
+        constexpr int controls = 18 + rowHeight + 3 * (28 + rowHeight) + 12;
+        return controls + facts_.heightFor(width);
+    }
     void visibilityChanged() override;
     /// Sets the receiver HOST:PORT as if typed; empty: none.
     void sendHitsTo(const juce::String& receiver);

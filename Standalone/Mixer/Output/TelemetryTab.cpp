@@ -36,7 +36,9 @@ Fact marginFact(const MixerMoment& moment, int rateHz) {
 
 Fact guardFact(const AudioOutputStatus& device) {
     const double reduction = toDecibels(std::max(static_cast<double>(device.guardGain), 1e-3));
-    const auto times = device.guarded > 0 ? ", acted " + count(device.guarded) + " times" : juce::String{};
+    const auto times = device.guarded > 0
+                           ? ", acted " + count(device.guarded) + (device.guarded == 1 ? " time" : " times")
+                           : juce::String{};
     return {"Guard", number(reduction, 1) + " dB" + times, reduction < -0.05 ? Shade::limit : Shade::text};
 }
 

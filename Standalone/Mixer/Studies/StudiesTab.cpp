@@ -31,7 +31,8 @@ juce::String exposureWords(const std::vector<TrialRecord>& records) {
 
 juce::String aboutText(const Protocol& protocol) {
     juce::StringArray conditions, sessions;
-    for (const auto& condition : protocol.conditions) conditions.add(utf8(condition.name));
+    for (const auto& condition : protocol.conditions)
+        conditions.add(utf8(condition.name).replaceCharacter('-', 0x2011)); // broken nowhere
     for (const auto& session : protocol.sessions) sessions.add(utf8(session.name));
     const auto title = utf8(protocol.title);
     return title.substring(0, 1).toUpperCase() + title.substring(1) +
@@ -197,6 +198,7 @@ void StudiesTab::setParticipant(const juce::String& code, int number) {
 
 void StudiesTab::setFolder(const juce::File& folder) {
     folder_.setText(folder.getFullPathName(), false);
+    folder_.moveCaretToEnd(); // its name is seen, however long the way to it
     look();
 }
 
@@ -465,7 +467,7 @@ void StudiesTab::mixChanged() {
     const auto weak = mix.levelDb <= leastStripDb ? juce::String{"nothing is felt"}
                                                   : number(times, times < 10.0 ? 1 : 0) + " times weaker";
     level_ = times > 1.0 ? "The master is at " + number(mix.levelDb, 1) + " dB: " + weak +
-                               " than the protocol says. Its g are those at 0 dB; raise it beside Begin."
+                               " than the protocol says. Its g are those at 0 dB: the fader below raises it."
                          : juce::String{};
     if (model_.device().isNone())
         level_ = "There is no device: the study can be seen, and is felt by nobody.";

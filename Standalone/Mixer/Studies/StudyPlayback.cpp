@@ -76,14 +76,10 @@ Result<FeltStimulus> StudySound::make(MixerModel& model, const TrialJob& job, co
     return stimulus;
 }
 
-namespace {
-
 std::string tooFew(const std::string& layout, int wanted, int there) {
-    return layout + ": expected " + std::to_string(wanted) + " actuators in the mixer, found " +
-           std::to_string(there) + "; Actuators has presets";
+    return layout + " needs " + std::to_string(wanted) + (wanted == 1 ? " actuator" : " actuators") +
+           ", the mixer has " + std::to_string(there) + ": choose a preset under Actuators";
 }
-
-} // namespace
 
 std::string StudySound::refusal(const MixerModel& model, const FeltStimulus& stimulus) {
     const int wanted = stimulus.layout.geometry.count, there = model.mix().count();

@@ -15,6 +15,9 @@
 
 namespace physvib {
 
+/// The mixer has fewer actuators than a layout. Any thread.
+std::string tooFew(const std::string& layout, int wanted, int there);
+
 /// How what was played last fared, by the receipts of the output.
 enum class Course {
     none,   ///< nothing was played yet, or it was stopped

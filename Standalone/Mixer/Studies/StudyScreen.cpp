@@ -70,8 +70,7 @@ std::string outputsFault(const Protocol& protocol, const MixerModel& model) {
         if (!layout) return layout.error;
         const std::size_t wanted = layout.value.enchanters.size();
         if (wanted > strips.size())
-            return condition.layout + ": expected " + std::to_string(wanted) +
-                   " actuators in the mixer, found " + std::to_string(strips.size());
+            return tooFew(condition.layout, static_cast<int>(wanted), static_cast<int>(strips.size()));
         most = std::max(most, wanted);
     }
     std::vector<std::string> without;

@@ -69,7 +69,7 @@ void askForValues(juce::Component& from, const juce::String& title, const juce::
 }
 
 juce::Image qrPicture(const std::string& link) {
-    constexpr int most = 370; // the longest has 177 modules
+    constexpr int most = mostPicture; // the longest has 177 modules
     QrCode code{link};
     if (code.side() == 0) return {};
     const int side = code.side() + 2 * QrCode::quietModules, each = std::min(6, most / side);
@@ -348,8 +348,9 @@ QuestionCard::QuestionCard(const juce::String& title, const juce::String& words,
     fit();
 }
 
-void QuestionCard::setPicture(const juce::Image& picture) {
+void QuestionCard::setPicture(const juce::Image& picture, const juce::String& without) {
     picture_ = picture;
+    without_ = without;
     fit();
 }
 
@@ -406,7 +407,12 @@ bool QuestionCard::keyPressed(const juce::KeyPress& key) {
 void QuestionCard::paint(juce::Graphics& g) {
     Card::paint(g);
     g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality); // sharp on finer screens
-    g.drawImageAt(picture_, getWidth() - edgeX - picture_.getWidth(), edgeY);
+    const auto room = juce::Rectangle<int>{aside().x, aside().y}.withRightX(getWidth() - edgeX).withY(edgeY);
+    const auto at = picture_.getBounds().withCentre(room.getCentre());
+    if (picture_.isValid()) return g.drawImageAt(picture_, at.getX(), at.getY());
+    g.setColour(shade(*this, Shade::muted));
+    g.setFont(text::font(text::medium));
+    g.drawFittedText(without_, room, juce::Justification::centred, 4, 1.0f);
 }
 
 void QuestionCard::place(juce::Rectangle<int> content) {

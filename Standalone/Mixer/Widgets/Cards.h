@@ -95,6 +95,8 @@ private:
     juce::TextButton up_{"Up"}, accept_, cancel_{"Cancel"};
 };
 
+constexpr int mostPicture = 370; ///< pixels of a side
+
 /// Dialogue card over the window, with fields to fill in: Return selects the first answer, buttons and keys
 /// the others.
 /// Message thread.
@@ -127,8 +129,10 @@ public:
     void setFirst(const juce::String& answer); ///< the one that Return gives
     using Card::say;
 
-    /// A square beside the words, with sharp pixels; null: none.
-    void setPicture(const juce::Image& picture);
+    /// A square beside the words, with sharp pixels; null: `without` stands there, if it is not empty. With
+    /// `without` the room is that of the largest.
+    void setPicture(const juce::Image& picture, const juce::String& without = {});
+    const juce::String& withoutPicture() const noexcept { return without_; }
     const juce::Image& picture() const noexcept { return picture_; }
 
     /// Same as a click on that button; no effect if it is missing or disabled.
@@ -141,9 +145,13 @@ private:
     void act(std::size_t which);
     int contentHigh() const override { return static_cast<int>(inputs_.size()) * (rowHeight + gap); }
     void place(juce::Rectangle<int> content) override;
-    juce::Point<int> aside() const override { return {picture_.getWidth(), picture_.getHeight()}; }
+    juce::Point<int> aside() const override {
+        return without_.isEmpty() ? juce::Point{picture_.getWidth(), picture_.getHeight()}
+                                  : juce::Point{mostPicture, mostPicture};
+    }
 
     juce::Image picture_;
+    juce::String without_;
     std::vector<Answer> answers_;
     std::vector<std::unique_ptr<juce::TextButton>> buttons_;
     std::vector<std::unique_ptr<Input>> inputs_;
@@ -190,7 +198,8 @@ public:
     virtual void setScreen(juce::Component* screen) = 0;
 };
 
-/// A link as a QR code, dark on white in any look, of at most 370 pixels; null if it is too long. Any thread.
+/// A link as a QR code, dark on white in any look, of at most mostPicture; null if it is too long. Any
+/// thread.
 juce::Image qrPicture(const std::string& link);
 
 /// All for the message thread. `use` and `cancelled` are called later, after the card has gone, and not if

@@ -9,6 +9,7 @@
 #include "Mixer/Model/MixerDevice.h"
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -229,8 +230,11 @@ void FirstStart::louder() {
 
 void FirstStart::end(bool hasChosen) {
     model_.undoManager().clearUndoHistory(); // no undo raises the level at which it has tested
-    if (tested_ >= 0) model_.setSlowness(slowness_);
-    tested_ = -1;
+    if (std::exchange(tested_, -1) >= 0) {
+        model_.setSlowness(slowness_);
+        model_.announce("The master stays at " + number(model_.mix().levelDb, 0) +
+                        " dB, as it was tested: its fader raises it");
+    }
     if (onEnd) onEnd(hasChosen); // may destroy this object
 }
 

@@ -147,7 +147,7 @@ void MixerView::mixChanged() {
     tabs_.mixChanged();
     strips_.mixChanged();
     scope_.mixChanged();
-    if (const auto why = whySilent(model_.mix()); why != whySilent_) {
+    if (const auto why = whySilent(model_); why != whySilent_) {
         whySilent_ = why;
         hintOnLevels(model_, why);
     }

@@ -994,26 +994,25 @@ void MixerWindow::share() {
         return at(address);
     };
     const bool canServe = served_.isEmpty() && PageServer::isThere();
-    const juce::String sentence =
-        "Who opens the link in the page gets the same world and samples. It stands behind the #, so no "
-        "server gets it. " +
-        juce::String{served_.isNotEmpty()
-                         ? "The page is here while the mixer runs; a browser warns once of its certificate."
-                     : canServe
-                         ? "Serve it here gives the page, with a code that a phone reads, to who is in "
-                           "this network. Or type where else it is."
-                         : "Type where the page is, or save the scene for another mixer."};
     const juce::String instead = canServe ? "Serve it here" : "Save as scene" + dots();
-    const auto show = [at, sentence, instead](QuestionCard& card, const juce::String& address) {
-        const bool isAlone = address.isEmpty() || isLoopback(address);
+    const auto show = [at, canServe, instead, isServed = served_.isNotEmpty()](QuestionCard& card,
+                                                                               const juce::String& address) {
+        const bool isAlone = isLoopback(address), isThere = address.isNotEmpty();
         card.setValue(linkField, at(address));
-        for (const char* words : {copyWords, openWords}) card.enable(words, address.isNotEmpty());
-        card.setFirst(address.isEmpty() ? instead : juce::String{copyWords});
-        const auto code = isAlone ? juce::Image{} : qrPicture(at(address).toStdString());
-        card.setPicture(code);
-        card.say("Share the world", isAlone || code.isValid()
-                                        ? sentence
-                                        : sentence + " This world's link is too long for a code.");
+        for (const char* words : {copyWords, openWords}) card.enable(words, isThere);
+        card.setFirst(isThere ? juce::String{copyWords} : instead);
+        const auto code = isAlone || !isThere ? juce::Image{} : qrPicture(at(address).toStdString());
+        card.setPicture(code, isAlone    ? "No code: this address leads nowhere on a phone, only here"
+                              : !isThere ? "No code yet"
+                                         : "No code: this world's link is too long for one");
+        card.say("Share the world",
+                 isThere ? juce::String{"Who opens the link gets the same world and samples."} +
+                               (isServed ? " The page is here while the mixer runs; a browser warns once of "
+                                           "its certificate."
+                                         : "")
+                 : canServe ? "What is missing is the page: Serve it here gives it to who is in this network."
+                            : "What is missing is the page: type where it is, or save the scene for another "
+                              "mixer.");
     };
     std::vector<std::pair<juce::String, std::function<void()>>> answers{
         {copyWords,
@@ -1023,12 +1022,13 @@ void MixerWindow::share() {
              model_->announce("Copied a link of " + juce::String{words.length()} + " characters");
          }},
         {openWords, [whole] { openLink(whole()); }}};
-    if (served_.isEmpty())
-        answers.push_back({instead, [this, canServe] {
-                               view_->setCard(nullptr);
-                               canServe ? serve() : saveScene(false);
-                           }});
-    ask("Share the world", sentence, std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
+    if (served_.isEmpty()) // the first is at the right
+        answers.insert(page.isEmpty() ? answers.begin() : answers.end(), {instead, [this, canServe] {
+                                                                              view_->setCard(nullptr);
+                                                                              canServe ? serve()
+                                                                                       : saveScene(false);
+                                                                          }});
+    ask("Share the world", {}, std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
     show(*view_->question(), page);
 }
 

@@ -77,7 +77,7 @@ Result<std::string> pageLink(const Mix& mix, const Scene& drawn) {
 }
 
 bool isLoopback(const juce::String& address) {
-    const auto host = address.fromFirstOccurrenceOf("://", false, false);
+    const auto host = address.contains("://") ? address.fromFirstOccurrenceOf("://", false, false) : address;
     return host.startsWith("127.") || host.startsWith("[::1]") || host.startsWithIgnoreCase("localhost");
 }
 

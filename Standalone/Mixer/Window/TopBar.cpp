@@ -172,7 +172,8 @@ void TopBar::refresh(const MixerMoment& moment) {
     const auto shown = isNone ? juce::String{"No device"} : name;
     const bool isSeen = model_.isOnlySeen();
     if (!moment.device.isRunning)
-        device_.set("No sound", model_.device().trouble(), Shade::limit);
+        device_.set("No sound", model_.device().trouble().upToFirstOccurrenceOf(";", false, false),
+                    Shade::limit);
     else
         device_.set(isPlay_ ? shown : dotted({shown, numbers, juce::String{output.blockFrames()}}),
                     isSeen    ? juce::String{"seen, not felt"}
@@ -184,19 +185,20 @@ void TopBar::refresh(const MixerMoment& moment) {
     const auto& r = moment.session.render;
     const auto lost = model_.session().world().drops() + r.untold;
     load_.set("Load " + number(100.0 * moment.device.load, 1) + " %",
-              dotted({count(r.late, "late"), count(lost, "dropped")}),
+              dotted({count(r.late, "late"), count(lost, "lost")}),
               r.late + lost > 0 ? Shade::now : Shade::text);
     isToldOfLoad_ = lost > 0 || moment.device.load > 0.5f;
     const auto sinks = model_.session().sinks().states();
     const bool areReady = std::ranges::all_of(sinks, &SinkState::isReady);
-    board_.set(
-        sinks.empty() ? juce::String{"Board: none"}
-        : areReady    ? titleOf(sinks.front().name) + ": ready"
-                      : "No " + utf8(std::ranges::find(sinks, false, &SinkState::isReady)->name),
-        count(static_cast<std::uint64_t>(r.liveModes), r.liveModes == 1 ? "mode sounds" : "modes sound"),
-        sinks.empty() ? Shade::muted
-        : areReady    ? Shade::accent
-                      : Shade::limit);
+    board_.set(sinks.empty() ? juce::String{"Board: none"}
+               : areReady    ? titleOf(sinks.front().name) + ": ready"
+                             : "No " + utf8(std::ranges::find(sinks, false, &SinkState::isReady)->name),
+               model_.isSilent() ? juce::String{"silenced"}
+                                 : count(static_cast<std::uint64_t>(r.liveModes),
+                                         r.liveModes == 1 ? "tone rings" : "tones ring"),
+               sinks.empty() ? Shade::muted
+               : areReady    ? Shade::accent
+                             : Shade::limit);
     if (hadLoad != isToldOfLoad_) resized();
 }
 

@@ -192,7 +192,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
         });
         if (!canBe) model_.report("Nothing chosen has a material that vibrates: choose another one below");
     };
-    for (auto* slider : {&density_, &bounce_, &speed_, &torque_, &spring_}) {
+    for (auto* slider : {&density_, &bounce_, &speed_, &torque_, &spring_, &belt_}) {
         // read when the text box is created
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
         slider->setSliderStyle(juce::Slider::LinearBar);
@@ -237,12 +237,18 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
     onSlide(spring_, [this](bool continuesEdit) {
         edit("Spring", sprung(model_.world().drawing(), springJoint_, spring_.getValue()), continuesEdit);
     });
+    describe(belt_, "Belt speed", "Speed of the conveyor belt, in m/s, on top to the right");
+    belt_.setRange(-20.0, 20.0, 0.1);
+    slides(belt_, "Belt speed", [](BodyDescription& b, double speed) {
+        constexpr double still = 0.01; // it stays a belt
+        b.velocityMetresPerSecond.x = speed == 0.0 ? still : speed;
+    });
     new_.onClick = [this] {
         askMaterial(*this, model_, pane_.material(), true,
                     [this](int material) { pane_.giveMaterial(material), show(); });
     };
     addAll(*this, {&new_, &name_, &moves_, &source_, &densityName_, &density_, &bounceName_, &bounce_,
-                   &speedName_, &speed_, &torqueName_, &torque_, &springName_, &spring_});
+                   &speedName_, &speed_, &torqueName_, &torque_, &springName_, &spring_, &beltName_, &belt_});
 }
 
 BodyPanel::~BodyPanel() = default;
@@ -273,6 +279,10 @@ void BodyPanel::show() {
     spring_.setVisible(spring != nullptr);
     if (spring && !spring_.isMouseButtonDown())
         spring_.setValue(springHzOf(*spring), juce::dontSendNotification);
+    const double belt = body->velocityMetresPerSecond.x;
+    for (juce::Component* c : std::initializer_list<juce::Component*>{&beltName_, &belt_})
+        c->setVisible(chosen.size() == 1 && body->type == BodyType::staticBody && belt != 0.0);
+    if (!belt_.isMouseButtonDown()) belt_.setValue(belt, juce::dontSendNotification);
     const auto differ = [&](auto what) {
         return std::ranges::any_of(chosen, [&](const std::string& name) {
             const auto* other = model_.world().drawing().find(name);
@@ -347,19 +357,20 @@ void BodyPanel::resized() {
     auto area = getLocalBounds().reduced(edge);
     name_.setBounds(area.removeFromTop(nameHigh()));
     auto row = area.removeFromTop(rowHigh);
-    moves_.setBounds(row.removeFromLeft(84));
+    moves_.setBounds(row.removeFromLeft(82));
     source_.setBounds(row);
     for (int k = 0; auto& swatch : materials_) {
-        if (k++ % perRow == 0) row = area.removeFromTop(rowHigh);
-        swatch->setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1, 0));
+        if (k++ % perRow() == 0) row = area.removeFromTop(rowHigh);
+        swatch->setBounds(row.removeFromLeft(area.getWidth() / perRow()).reduced(1, 0));
     }
-    if (std::ssize(materials_) % perRow == 0) row = area.removeFromTop(rowHigh);
-    new_.setBounds(row.removeFromLeft(area.getWidth() / perRow).reduced(1, 0));
+    if (std::ssize(materials_) % perRow() == 0) row = area.removeFromTop(rowHigh);
+    new_.setBounds(row.removeFromLeft(area.getWidth() / perRow()).reduced(1, 0));
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},
                                         {&speedName_, &speed_},
                                         {&torqueName_, &torque_},
-                                        {&springName_, &spring_}}) {
+                                        {&springName_, &spring_},
+                                        {&beltName_, &belt_}}) {
         if (!slider->isVisible()) continue;
         row = area.removeFromTop(rowHigh);
         label->setBounds(row.removeFromLeft(56));

@@ -65,15 +65,17 @@ public:
     void paint(juce::Graphics& g) override;
     void resized() override;
     int wantedHeight() const {
-        const int rows = static_cast<int>(materials_.size()) / perRow + 1; // with the one that makes another
+        const int rows = static_cast<int>(materials_.size()) / perRow() + 1; // with the one that makes
+                                                                             // another
         return 2 * edge + nameHigh() + (3 + rows) * rowHigh + (drivenJoint_.empty() ? 0 : 2 * rowHigh) +
-               (springJoint_.empty() ? 0 : rowHigh);
+               (springJoint_.empty() ? 0 : rowHigh) + (belt_.isVisible() ? rowHigh : 0);
     }
-    static constexpr int wide = 208;
+    static constexpr int wide = 224;
 
 private:
-    static constexpr int edge = 5, rowHigh = 24, perRow = 7;
-    int nameHigh() const; ///< in as many lines as it needs
+    static constexpr int edge = 5, rowHigh = 24;
+    int perRow() const { return materials_.size() == 7 ? 8 : 7; } ///< the one that makes another is not alone
+    int nameHigh() const;                                         ///< in as many lines as it needs
     void edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit);
 
     MixerModel& model_;
@@ -84,9 +86,9 @@ private:
     SignButton new_{Sign::plus, "New material for what is chosen"};
     juce::Label name_;
     Caption densityName_{"density"}, bounceName_{"bounce"}, speedName_{"motor"}, torqueName_{"torque"},
-        springName_{"spring"};
+        springName_{"spring"}, beltName_{"belt"};
     juce::ToggleButton moves_{"moves"}, source_{"haptic source"};
-    juce::Slider density_, bounce_, speed_, torque_, spring_;
+    juce::Slider density_, bounce_, speed_, torque_, spring_, belt_;
 };
 
 } // namespace physvib

@@ -14,12 +14,16 @@ namespace physvib {
 
 namespace {
 
-/// Of what moves, that of the last body that does; else the first one that sounds.
+/// Of what moves, that of the last body that does and sounds; else the first one that sounds.
 int usualMaterial(const Scene& scene, DrawTool tool) {
     const auto sounds = [](const Material& m) { return m.frequencyHz > 0.0; };
-    if (tool != DrawTool::wall && tool != DrawTool::line)
-        for (auto body = scene.bodies.rbegin(); body != scene.bodies.rend(); ++body)
-            if (body->type == BodyType::dynamicBody) return body->fixtures[0].material;
+    if (tool != DrawTool::wall && tool != DrawTool::line && tool != DrawTool::conveyor)
+        for (auto body = scene.bodies.rbegin(); body != scene.bodies.rend(); ++body) {
+            const int material = body->fixtures[0].material;
+            if (body->type == BodyType::dynamicBody &&
+                sounds(scene.materials[static_cast<std::size_t>(material)]))
+                return material;
+        }
     return static_cast<int>(std::ranges::find_if(scene.materials, sounds) - scene.materials.begin());
 }
 
@@ -224,6 +228,7 @@ Result<BodyDescription> DrawPane::drawnNow() const {
                                   {from.x + 1.1 * size, from.y + 0.8 * size})
                        : drawnBox(from, to_);
     case DrawTool::line: return drawnLine(stroke_, 0.004 * height);
+    case DrawTool::conveyor: return beltNow();
     case DrawTool::wall:
         return drawnWall(isClick ? Vector{from.x - 2.0 * size, from.y} : from,
                          isClick ? Vector{from.x + 2.0 * size, from.y} : to_, 0.03 * height);
@@ -247,33 +252,19 @@ Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
     return drawnRain({x - wide, y - high}, {x + wide, y + high}, rainCount_);
 }
 
-// Rollers of a conveyor, from the start of the drag to its end; a click gives some of them to the right. Each
-// turns at its own speed, whatever lies on it, so that its upper side goes the way of the drag. They overlap:
-// in a dip between two a ball would turn on its place.
-std::vector<BodyDescription> DrawPane::rollersNow() const {
-    constexpr double radiusShare = 0.03, speedShare = 0.8; // of the field's height, in a second; a ball that
-                                                           // rolls gets a third
-    constexpr double apartShare = 0.8, usual = 16.0, most = 80.0;
-    const double radius = radiusShare * model_.world().scene().fieldHeightMetres;
+// A wall whose surface runs the way of the drag; a click gives one to the right.
+Result<BodyDescription> DrawPane::beltNow() const {
+    constexpr double thickShare = 0.05, speedShare = 0.8; // of the field's height, in a second; a ball that
+                                                          // rolls gets a third
+    const double height = model_.world().scene().fieldHeightMetres, thick = thickShare * height;
     const Vector from = stroke_.empty() ? to_ : stroke_[0];
-    const double length = between(from, to_);
-    const bool isClick = length < 2.0 * radius;
-    const double apart = std::max(apartShare * radius, isClick ? 0.0 : length / most);
-    const double x = isClick ? apart : (to_.x - from.x) / length * apart,
-                 y = isClick ? 0.0 : (to_.y - from.y) / length * apart;
-    std::vector<BodyDescription> all;
-    for (int k = 0; k < (isClick ? usual : 1.0 + length / apart); ++k)
-        if (const Vector at{from.x + k * x, from.y + k * y};
-            auto ball = drawnBall(at, {at.x + radius, at.y})) {
-            ball.value.type = BodyType::kinematicBody;
-            ball.value.spinRadiansPerSecond = (x < 0.0 ? 1.0 : -1.0) * speedShare / radiusShare;
-            all.push_back(std::move(ball.value));
-        }
-    return all;
+    const bool isClick = between(from, to_) < thick;
+    auto belt = drawnWall(from, isClick ? Vector{from.x + 8.0 * thick, from.y} : to_, thick);
+    belt.value.velocityMetresPerSecond.x = (!isClick && to_.x < from.x ? -1.0 : 1.0) * speedShare * height;
+    return belt;
 }
 
 void DrawPane::addStroke() {
-    if (tool_ == DrawTool::conveyor) return add(rollersNow());
     if (tool_ == DrawTool::rain) {
         auto bodies = rainNow();
         if (!bodies || rain_.pattern().perSecond == 0) return add(std::move(bodies));
@@ -295,8 +286,7 @@ bool DrawPane::prepare(std::vector<BodyDescription>& bodies) {
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         bodies[k].name = names[k];
         for (auto& fixture : bodies[k].fixtures) fixture.material = material_;
-        if (sounds && startsAsSource(drawing().drawn(), bodies[k]))
-            setSource(drawing().drawn(), bodies[k], true);
+        if (sounds && startsAsSource(bodies[k])) setSource(drawing().drawn(), bodies[k], true);
     }
     return true;
 }
@@ -306,9 +296,7 @@ void DrawPane::add(Result<std::vector<BodyDescription>> bodies) {
     if (!bodies) return model_.report(utf8(bodies.error));
     if (!prepare(bodies.value)) return;
     std::vector<Action> actions;
-    std::vector<std::string> names{bodies.value.front().name};
-    if (tool_ == DrawTool::conveyor)
-        for (std::size_t k = 1; k < bodies.value.size(); ++k) names.push_back(bodies.value[k].name);
+    const std::vector<std::string> names{bodies.value.front().name};
     for (auto& body : bodies.value) actions.push_back(SpawnAction{std::move(body), {}});
     edit("Draw a " + juce::String{wordsOf(tool_).name}.toLowerCase(), std::move(actions));
     if (tool_ != DrawTool::conveyor) hintOnBody(model_, names.front()); // what it carries is felt
@@ -636,6 +624,31 @@ void DrawPane::drawJoints(juce::Graphics& g) const {
     }
 }
 
+// Arrows along the side that carries.
+void DrawPane::drawBelts(juce::Graphics& g) const {
+    constexpr float apart = 26.0f;
+    g.setColour(shade(*this, Shade::ground));
+    for (const auto& body : drawing().drawn().bodies) {
+        const double speed = body.velocityMetresPerSecond.x;
+        const auto place = placeNow(body.name);
+        if (body.type != BodyType::staticBody || speed == 0.0 || !place) continue;
+        const Reach reach = reachOf(body);
+        const auto on = [&](double x, double y) {
+            return view_.placeOfMetres(detail::Motion{{}, *place}({x, y}));
+        };
+        juce::Line<float> line{on(reach.least.x, 0.0), on(reach.most.x, 0.0)};
+        if (speed * std::cos(place->angleRadians) < 0.0) line = line.reversed();
+        const float high = 0.3f * on(0.0, reach.least.y).getDistanceFrom(on(0.0, reach.most.y));
+        for (float at = 0.5f * apart; at < line.getLength(); at += apart) {
+            juce::Path arrow;
+            arrow.addTriangle(-high, -high, -high, high, high, 0.0f);
+            g.fillPath(arrow, juce::AffineTransform::rotation(line.getAngle() -
+                                                              0.5f * juce::MathConstants<float>::pi)
+                                  .translated(line.getPointAlongLine(at)));
+        }
+    }
+}
+
 void DrawPane::drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place,
                            juce::Colour colour, bool isFilled) const {
     const float scale = view_.pixelsPerMetre();
@@ -698,8 +711,8 @@ void DrawPane::drawStroke(juce::Graphics& g) const {
     if (tool_ == DrawTool::spring)
         return g.strokePath(coilOutline<juce::Path>(from, to, 6.0f, 6), juce::PathStrokeType{2.0f});
     if (tool_ == DrawTool::rope || tool_ == DrawTool::slider) return g.drawLine({from, to}, 2.0f);
-    if (tool_ == DrawTool::rain || tool_ == DrawTool::conveyor) {
-        for (const auto& body : tool_ == DrawTool::rain ? rainNow().value : rollersNow())
+    if (tool_ == DrawTool::rain) {
+        for (const auto& body : rainNow().value)
             drawOutline(g, body, {body.positionMetres, 0.0}, accent, true);
         return;
     }
@@ -708,6 +721,7 @@ void DrawPane::drawStroke(juce::Graphics& g) const {
 }
 
 void DrawPane::paint(juce::Graphics& g) {
+    drawBelts(g);
     drawJoints(g);
     if (tool_ == DrawTool::hand) return;
     drawChosen(g);

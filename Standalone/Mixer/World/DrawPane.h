@@ -89,7 +89,7 @@ private:
     std::map<std::string, BodyPlace> movedNow() const;
     Result<BodyDescription> drawnNow() const;
     Result<std::vector<BodyDescription>> rainNow() const;
-    std::vector<BodyDescription> rollersNow() const;
+    Result<BodyDescription> beltNow() const;
     void addStroke();
     bool prepare(std::vector<BodyDescription>& bodies);
     void add(Result<std::vector<BodyDescription>> bodies);
@@ -107,6 +107,7 @@ private:
     std::string jointAt(juce::Point<float> place) const;
     Vector carried(const Vector& point, const std::string& body) const;
     juce::Line<float> lineNow(const JointDescription& joint) const;
+    void drawBelts(juce::Graphics& g) const;
     void drawJoints(juce::Graphics& g) const;
     void drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place,
                      juce::Colour colour, bool isFilled) const;

@@ -42,7 +42,7 @@ inline constexpr std::array<DrawToolWords, 15> drawTools{{
     {DrawTool::wall, 'w', "Wall", "Drag from end to end"},
     {DrawTool::rain, 'n', "Rain",
      "Drag over the place from which balls fall; how many, and how, is beside the materials"},
-    {DrawTool::conveyor, 'c', "Conveyor", "Drag the way that it carries: rollers that turn, in a row"},
+    {DrawTool::conveyor, 'c', "Conveyor", "Drag the way that it carries"},
     {DrawTool::pin, 'i', "Pin", "Click where two bodies overlap; a single one is pinned to the field"},
     {DrawTool::rope, 'r', "Rope", "Drag from one body to another, or to the field"},
     {DrawTool::spring, 'k', "Spring", "As a rope that swings; its stiffness is beside the selected body"},

@@ -148,12 +148,10 @@ void WorldPanel::showTools() {
     placeInspector();
 }
 
-// Beside the field if there is room, else at what is selected. It stays where it is, since a hand is on its
-// way to it, until an edit has brought that and the badges to where another place covers half as much of
-// them.
+// Beside the field if there is room, else at an edge, whatever what is selected does: a hand is on its way
+// there. It moves when an edit has brought that and the badges to where another place covers half as much.
 void WorldPanel::placeInspector(bool isEdited) {
     if (!body_.isVisible()) return;
-    constexpr int beside = 8;
     const auto room = getLocalBounds()
                           .withTrimmedLeft(bar_.getRight())
                           .withTrimmedTop(40)
@@ -177,7 +175,6 @@ void WorldPanel::placeInspector(bool isEdited) {
     if (!isOther && (!isEdited || body_.isMouseOver(true))) return body_.setBounds(now);
     if (!inTheWay.front().isEmpty()) body_.setName(name); // what is new is there at the next step
     int least = room.contains(now) && !isOther ? (covered(now) + 1) / 2 : std::numeric_limits<int>::max();
-    const auto& body = inTheWay.front();
     const auto& scene = model_.world().scene();
     const auto edgeAt = [this](double metres) {
         return juce::roundToInt(view_.placeOfMetres({metres, 0.0}).x) + view_.getX();
@@ -185,15 +182,12 @@ void WorldPanel::placeInspector(bool isEdited) {
     constexpr int apart = 20; // a badge stands on the edge
     const int right = edgeAt(scene.fieldWidthMetres) + apart, left = edgeAt(0.0) - apart - now.getWidth();
     std::vector<juce::Point<int>> corners;
-    if (right + now.getWidth() <= room.getRight()) corners.emplace_back(right, body.getY());
-    if (left >= room.getX()) corners.emplace_back(left, body.getY());
-    if (corners.empty()) {
-        corners.emplace_back(body.getRight() + beside, body.getY());
-        corners.emplace_back(body.getX() - beside - now.getWidth(), body.getY());
-        corners.emplace_back(body.getX(), body.getBottom() + beside);
-        corners.emplace_back(body.getX(), body.getY() - beside - now.getHeight());
-        corners.push_back(room.getTopRight());
-    }
+    if (right + now.getWidth() <= room.getRight()) corners.emplace_back(right, room.getY());
+    if (left >= room.getX()) corners.emplace_back(left, room.getY());
+    if (corners.empty())
+        for (const int x : {room.getRight() - now.getWidth(), room.getX()})
+            for (const int y : {room.getCentreY() - now.getHeight() / 2, room.getY(), room.getBottom()})
+                corners.emplace_back(x, y);
     for (const auto& corner : corners) {
         const auto place = now.withPosition(corner).constrainedWithin(room);
         if (const int pixels = covered(place); pixels < least) least = pixels, best = place;
@@ -204,7 +198,7 @@ void WorldPanel::placeInspector(bool isEdited) {
 juce::Rectangle<int> WorldPanel::bannerArea() const {
     auto area = getLocalBounds().withTrimmedLeft(isShow_ ? 8 : bar_.getRight());
     if (isShow_) area.removeFromRight(silenceWidth);
-    return area.reduced(8, 4).withHeight(36);
+    return area.reduced(8, 4).withHeight(28); // above badges on the upper edge
 }
 
 void WorldPanel::setShow(bool isShow) {
@@ -354,7 +348,7 @@ juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     return lines.size() <= 2 ? lines.joinIntoString("\n") : juce::String{};
 }
 
-juce::String WorldPanel::whyMuted() const { return model_.isSilent() ? "silent" : whySilent(model_.mix()); }
+juce::String WorldPanel::whyMuted() const { return model_.isSilent() ? "silent" : whySilent(model_); }
 
 /// Empty: something is felt, or may be at once.
 juce::String WorldPanel::whyNothing(double nowMs, bool isRunning) const {

@@ -623,11 +623,26 @@ TEST(Window, ShareLeadsWhereAPersonCanGo) {
     const juce::String instead = PageServer::isThere() ? "Serve it here" : "Save as scene" + dots();
     EXPECT_FALSE(button("Copy the link").isEnabled());
     EXPECT_TRUE(button(instead).getToggleState()) << "of the page, or of a file";
+    EXPECT_TRUE(said(*card).contains("is missing")) << said(*card);
     auto& address = dynamic_cast<juce::TextEditor&>(*find(*card, "Address of the page"));
+    const auto places = [&] {
+        std::vector<juce::Rectangle<int>> all{card->getLocalBounds(), address.getScreenBounds()};
+        for (const juce::String& words : {instead, juce::String{"Copy the link"}, juce::String{"Open it"}})
+            all.push_back(button(words).getScreenBounds());
+        return all;
+    };
+    const auto first = places();
+    EXPECT_EQ(std::ranges::max_element(first.begin() + 2, first.end(), {}, &juce::Rectangle<int>::getX),
+              first.begin() + 2)
+        << "what leads on is at the right";
+    address.setText("localhost", true);
+    ASSERT_TRUE(runUntil([&] { return card->withoutPicture().contains("leads nowhere"); }));
+    EXPECT_EQ(places(), first);
     address.setText("https://example.org/page/", true);
     ASSERT_TRUE(runUntil([&] { return card->picture().isValid(); })) << "a code for a phone";
     EXPECT_TRUE(card->value("Link").startsWith("https://example.org/page/#scene=")) << card->value("Link");
     EXPECT_TRUE(button("Copy the link").isEnabled() && button("Copy the link").getToggleState());
+    EXPECT_EQ(places(), first) << "nothing moves while one types";
     EXPECT_TRUE(card->keyPressed(juce::KeyPress{juce::KeyPress::returnKey}));
     ASSERT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
     EXPECT_TRUE(window.model().trouble().startsWith("Copied a link of ")) << window.model().trouble();
