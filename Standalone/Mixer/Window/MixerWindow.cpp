@@ -1003,16 +1003,16 @@ void MixerWindow::share() {
         card.setFirst(isThere ? juce::String{copyWords} : instead);
         const auto code = isAlone || !isThere ? juce::Image{} : qrPicture(at(address).toStdString());
         card.setPicture(code, isAlone    ? "No code: this address leads nowhere on a phone, only here"
-                              : !isThere ? "No code yet"
+                              : !isThere ? "A phone's code comes with the address"
                                          : "No code: this world's link is too long for one");
         card.say("Share the world",
                  isThere ? juce::String{"Who opens the link gets the same world and samples."} +
                                (isServed ? " The page is here while the mixer runs; a browser warns once of "
                                            "its certificate."
                                          : "")
-                 : canServe ? "What is missing is the page: Serve it here gives it to who is in this network."
-                            : "What is missing is the page: type where it is, or save the scene for another "
-                              "mixer.");
+                 : canServe ? "Serve it here gives a web page with this world to who is in this network."
+                            : "This computer has no web page of PhysVib, which a link needs: save the scene as "
+                              "a file for another mixer, or type the address of a page.");
     };
     std::vector<std::pair<juce::String, std::function<void()>>> answers{
         {copyWords,
