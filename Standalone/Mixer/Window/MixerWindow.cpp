@@ -1010,9 +1010,10 @@ void MixerWindow::share() {
                                (isServed ? " The page is here while the mixer runs; a browser warns once of "
                                            "its certificate."
                                          : "")
-                 : canServe ? "Serve it here gives a web page with this world to who is in this network."
-                            : "This computer has no web page of PhysVib, which a link needs: save the scene as "
-                              "a file for another mixer, or type the address of a page.");
+                 : canServe
+                     ? "Serve it here gives a web page with this world to who is in this network."
+                     : "This computer has no web page of PhysVib, which a link needs: save the scene as "
+                       "a file for another mixer, or type the address of a page.");
     };
     std::vector<std::pair<juce::String, std::function<void()>>> answers{
         {copyWords,
