@@ -623,7 +623,7 @@ TEST(Window, ShareLeadsWhereAPersonCanGo) {
     const juce::String instead = PageServer::isThere() ? "Serve it here" : "Save as scene" + dots();
     EXPECT_FALSE(button("Copy the link").isEnabled());
     EXPECT_TRUE(button(instead).getToggleState()) << "of the page, or of a file";
-    EXPECT_TRUE(said(*card).contains("is missing")) << said(*card);
+    EXPECT_TRUE(said(*card).contains("web page")) << said(*card);
     auto& address = dynamic_cast<juce::TextEditor&>(*find(*card, "Address of the page"));
     const auto places = [&] {
         std::vector<juce::Rectangle<int>> all{card->getLocalBounds(), address.getScreenBounds()};
