@@ -56,7 +56,8 @@ TEST_F(ReportThresholds, AndMatchesArePlannedWhateverTheSimulatedObserverFeels) 
          {std::pair<std::string, std::string>{"detection-quest", "threshold by quest by condition"},
           {"gap-steps", "threshold by staircase by condition"},
           {"equal-sensation", "matched levels in match-60 by condition"}}) {
-        Protocol protocol = loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/" + name + ".json").value;
+        Protocol protocol =
+            loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/" + name + ".json").value;
         for (SessionPlan& session : protocol.sessions)
             if (session.adjustment) session.adjustment->leastDb = 10.0; // felt as strong at its end
         writeThree(protocol);

@@ -208,17 +208,17 @@ FitWords fitWords(std::span<const ColumnName> columns, const std::string& level,
 }
 
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
-                              const PsychometricModel& model, const FitWords& words,
-                              const LevelSummary* told, std::vector<std::string>* leftOut) {
+                              const PsychometricModel& model, const FitWords& words, const LevelSummary* told,
+                              std::vector<std::string>* leftOut) {
     const auto fits = psychometricByParticipant(told ? std::vector<LevelAnswer>{} : trials, model);
     std::vector<LevelAnswer> shown = trials; // of those who have a function, if somebody has
     const auto isLeftOut = [](const auto& own) { return !own.fit.fault.empty(); };
     if (!std::ranges::all_of(fits, isLeftOut))
         for (const auto& own : fits)
-            if (isLeftOut(own) && std::erase_if(shown, [&](const LevelAnswer& trial) {
-                    return trial.participant == own.participant;
-                }) > 0 && leftOut != nullptr)
-                leftOut->push_back(own.participant);
+            if (isLeftOut(own)) {
+                std::erase_if(shown, [&](const auto& trial) { return trial.participant == own.participant; });
+                if (leftOut != nullptr) leftOut->push_back(own.participant);
+            }
     const auto counts = countByLevel(shown, [](const LevelAnswer& trial) { return trial.counted(); });
     const double least = counts.front().level, most = counts.back().level;
     LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};

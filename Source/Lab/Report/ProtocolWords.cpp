@@ -182,8 +182,7 @@ std::vector<std::string> protocolSentences(const Protocol& protocol) {
             (protocol.conditions.size() < 2
                  ? std::string{}
                  : " in each condition; the order of conditions is " +
-                       std::string(
-                           conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)])) +
+                       std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)])) +
             "."};
     sentences.push_back(levelChain(protocol, "as planned"));
     if (protocol.hasPinkNoise)

@@ -62,8 +62,7 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
                     (report.people() > 1 ? "all participants' " : "") +
                     "trials, larger where there were more. Dotted: " +
                     (isOfMany ? "mean threshold, shaded its 95 % interval over participants" : "threshold") +
-                    (without.empty() ? "" : ", without " + without) +
-                    " (levels.csv).");
+                    (without.empty() ? "" : ", without " + without) + " (levels.csv).");
 }
 
 void tellMagnitudes(ReportBuilder& report) {
@@ -141,8 +140,8 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
             without += (without.empty() ? "" : "; ") + inSession(joined(leftOut, ", "), condition.name);
     }
     const std::string caption =
-        "Share of answers \u201c" + words.answer + "\u201d by " + words.level + ". Circles: " +
-        (report.people() > 1 && without.empty() ? "all participants' trials" : "trials") +
+        "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
+        ". Circles: " + (report.people() > 1 && without.empty() ? "all participants' trials" : "trials") +
         (without.empty() ? "" : " of those who have a function, so not of " + without) +
         ", larger where there were more";
     if (!isFitted) return report.page.figure(charts, caption + ".");

@@ -408,7 +408,8 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
         corrections.emplace_back("of an effect over several scales Holm's");
     if (has([](const SessionPlan& s) {
             return s.answer() == AnswerKind::choice && std::max(s.alternatives.size(), s.answers.size()) > 2;
-        }) && lists("choice="))
+        }) &&
+        lists("choice="))
         corrections.emplace_back(
             "of an effect, and of all pairs of a factor, over more than two alternatives Holm's");
     corrections.emplace_back(corrections.empty() ? "none"
