@@ -82,7 +82,9 @@ std::vector<Sentence> sentences() {
     told.name = "told", told.sessions.back().task = StudyTask::describe;
     matched.conditions.push_back(matched.conditions.front()); // the chart compares means
     matched.conditions.back().name = "two";
-    Protocol twoReferences = matched;
+    Protocol twoReferences = matched, twoNumbers = numbers;
+    twoNumbers.name = "two-numbers", twoNumbers.conditions.push_back(twoNumbers.conditions.front());
+    twoNumbers.conditions.back().name = "two";
     twoReferences.name = "two-references";
     twoReferences.sessions.back().alternatives.front().levelDb = -3.0;
     Protocol cut = interleaved;
@@ -311,8 +313,12 @@ std::vector<Sentence> sentences() {
          of(twice, 3, {}, true)},
         {"Dotted: threshold (levels.csv).", of(quest, 1), of(quest, 3)},
         {"Dotted: threshold. ", of(constant, 1, rising, true), of(constant, 3, rising, true)},
-        {"own geometric mean in that condition first: conditions cannot be compared here.", of(numbers, 3),
-         of(steps, 3)},
+        {"Each participant's numbers are divided by their own geometric mean in that condition first.",
+         of(numbers, 3), of(twoNumbers, 3, {}, true)},
+        {"own geometric mean in that condition first: conditions cannot be compared here.",
+         of(twoNumbers, 3, {}, true), of(numbers, 3)},
+        {"participant P2 left out: expected answers that change with the level",
+         of(constant, 3, both(rising, alikeOfP2), true), of(constant, 3, rising, true)},
         {"<h2>Magnitudes", of(numbers, 3), of(steps, 3)},
         {": geometric mean magnitude ", of(numbers, 3), of(steps, 3)},
         {": 100, beside 200 at 0 dB, set to ", of(matched, 3, {}, true), of(steps, 3)},
@@ -452,7 +458,7 @@ TEST(ReportSentences, WhatCouldNotBeTestedIsToldByItsKind) {
 
 TEST(ReportSentences, BarsOfPointsBeginAtTheFirst) {
     const auto ticks = [](const Protocol& protocol) {
-        const std::string page = pageOf(of(protocol, 3, {}, true));
+        const std::string page = pageOf(of(protocol, 8, {}, true));
         const auto at = page.find("<title>Mean scores");
         const std::string chart = page.substr(at, page.find("</svg>", at) - at);
         return std::pair{chart.find(">0</text>") != chart.npos, chart.find(">7</text>") != chart.npos};
