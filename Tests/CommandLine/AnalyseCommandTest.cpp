@@ -46,7 +46,7 @@ TEST_F(Analyse, MagnitudesWithoutAStimulusAreReadByTheirLevels) {
     write("m.csv", "participant,value,level_db\n01,2,0\n02,8,0\n01,3,6\n");
     const auto outcome = call("analyse levels m.csv");
     EXPECT_NE(outcome.err.find("no column stimulus: level_db (dB) stands for it"), std::string::npos);
-    EXPECT_NE(outcome.out.find("0: magnitude 4.00"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.out.find("0: geometric mean magnitude 4.00"), std::string::npos) << outcome.out;
 }
 
 TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {

@@ -55,8 +55,6 @@ const std::map<std::string, std::string> wordless{
     {"protocol.sessions", "a line each"},
     {"condition.observer_blur", "of simulated observers"},
     {"condition.stimuli", "the sets have words of their own"},
-    {"calls.call", "the report prints the calls of the rows"},
-    {"world.call", "the report prints the calls of the rows"},
     {"world.factors", "as those of calls"},
     {"world.variables", "as those of calls"},
 };
@@ -117,7 +115,8 @@ std::vector<PlantedField> plantedFields() {
         {"protocol.title", [](Protocol& p) { p.title = "what is planted"; }, ": what is planted."},
         {"protocol.condition_order",
          [](Protocol& p) { p.conditionOrder = Protocol::ConditionOrder::latinSquare; },
-         "the order of conditions is latin-square."},
+         "in each condition; the order of conditions is latin-square.",
+         [](Protocol& p) { p.conditions.push_back(p.conditions.front()); }},
         {"protocol.condition_break_s", [](Protocol& p) { p.conditionBreakSeconds = 77; },
          "A break of 77 s lies before each condition but the first."},
         {"protocol.exposure_limit_m_per_s2", [](Protocol& p) { p.exposureLimit = 1.25; },
@@ -149,6 +148,10 @@ std::vector<PlantedField> plantedFields() {
         {"grid.law", stimuli<GridSet>([](GridSet& s) { s.law = PanningLaw::energy; }), "law energy"},
         {"grid.exponent", stimuli<GridSet>([](GridSet& s) { s.exponent = 1.7; }), "with exponent 1.7"},
         {"grid.seconds", stimuli<GridSet>([](GridSet& s) { s.seconds = 0.45; }), ", 0.45 s"},
+        {"calls.call", stimuli<CallSet>([](CallSet& s) { s.call = "stimulus phantom"; }),
+         "calls of physvib \u201cstimulus phantom\u201d; layout"},
+        {"world.call", stimuli<WorldSet>([](WorldSet& s) { s.call = "render drop"; }),
+         "a world that is seen and felt \u201crender drop\u201d"},
         {"calls.factors", stimuli<CallSet>([](CallSet& s) {
              s.factors = {{"pair", {"a"}}, {"size", {"b"}}};
          }),

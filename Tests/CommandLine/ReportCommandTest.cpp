@@ -169,10 +169,20 @@ TEST_F(Report, APlanHasTheExclusionsAndCorrections) {
         EXPECT_TRUE(has(steps, words)) << words << steps;
         EXPECT_FALSE(has(grids, words)) << words;
     }
+    std::filesystem::remove(folder_ / "analysis.R");
+    const std::string shares = call("study plan model-or-sound --participants 4 --out plan.txt").out;
     for (const char* words :
-         {"ran out of time or have no answer", "an analysis of variance also has a mixed model of all",
-          "Greenhouse and Geisser's", "of the pairs of a factor Holm's"})
+         {"an analysis of variance also has a mixed model of all", "Greenhouse and Geisser's"}) {
         EXPECT_TRUE(has(grids, words)) << words << grids;
+        if (hasProgram("Rscript")) EXPECT_FALSE(has(shares, words)) << words << shares;
+    }
+    if (hasProgram("Rscript")) EXPECT_FALSE(has(grids, "against chance")) << grids;
+    EXPECT_TRUE(has(shares, "of shares against chance Holm's, over the lines of each session")) << shares;
+    EXPECT_FALSE(has(shares, "several scales") || has(shares, "two alternatives Holm")) << shares;
+    for (const std::string& plan : {grids, shares}) {
+        EXPECT_TRUE(has(plan, "trials that did not leave as planned or have no answer")) << plan;
+        EXPECT_TRUE(has(plan, "of the pairs of a factor Holm's")) << plan;
+    }
     EXPECT_FALSE(has(grids, "with their corrections"));
 }
 
@@ -336,7 +346,7 @@ TEST_F(Report, WhoStoppedBeforeTheEndIsNamed) {
         EXPECT_TRUE(has(html, "participant P02 did not finish ")) << name;
         EXPECT_FALSE(has(html, "Nobody and no main trial is left out before")) << name;
         EXPECT_EQ(has(html, "this threshold is left out of means and tests"), name != "magnitudes") << name;
-        EXPECT_EQ(has(html, ", which count but in means and tests that need a stimulus or level that is "
+        EXPECT_EQ(has(html, ", which count except in means and tests that need a stimulus or level that is "
                             "lacking, and name whom they leave out"),
                   name == "magnitudes")
             << name;

@@ -82,6 +82,11 @@ std::vector<Sentence> sentences() {
     told.name = "told", told.sessions.back().task = StudyTask::describe;
     matched.conditions.push_back(matched.conditions.front()); // the chart compares means
     matched.conditions.back().name = "two";
+    Protocol twoReferences = matched, twoNumbers = numbers;
+    twoNumbers.name = "two-numbers", twoNumbers.conditions.push_back(twoNumbers.conditions.front());
+    twoNumbers.conditions.back().name = "two";
+    twoReferences.name = "two-references";
+    twoReferences.sessions.back().alternatives.front().levelDb = -3.0;
     Protocol cut = interleaved;
     cut.name = "cut", cut.sessions.back().staircase->mostTrials = 6;
     const Edit halfATraining = [](Row& row) {
@@ -95,7 +100,7 @@ std::vector<Sentence> sentences() {
     const Edit device = both(both(set("device", "JACK:x"), set("version", "0.2.0")),
                              both(both(set("master_db", "0"), set("noise_db", "off")),
                                   both(set("limiter_db", "0"), set("left", "1"))));
-    const Edit alike = set("correct", "1");
+    const Edit alike = set("correct", "1"), alikeOfP2 = set("correct", "1", "P2");
     const Edit rising = [](Row& row) { // by frequency, from guessing to certainty
         const int trial = std::stoi(row["trial"]), hz = std::stoi("0" + row["stimulus"]);
         row["correct"] = trial * 7 % 10 < (hz - 150) / 12 ? "1" : "0";
@@ -308,9 +313,20 @@ std::vector<Sentence> sentences() {
          of(twice, 3, {}, true)},
         {"Dotted: threshold (levels.csv).", of(quest, 1), of(quest, 3)},
         {"Dotted: threshold. ", of(constant, 1, rising, true), of(constant, 3, rising, true)},
-        {"Each participant's numbers are divided by their own geometric mean first.", of(numbers, 3),
+        {"Each participant's numbers are divided by their own geometric mean in that condition first.",
+         of(numbers, 3), of(twoNumbers, 3, {}, true)},
+        {"own geometric mean in that condition first: conditions cannot be compared here.",
+         of(twoNumbers, 3, {}, true), of(numbers, 3)},
+        {"participant P2 left out: expected answers that change with the level",
+         of(constant, 3, both(rising, alikeOfP2), true), of(constant, 3, rising, true)},
+        {"<h2>Magnitudes", of(numbers, 3), of(steps, 3)},
+        {": geometric mean magnitude ", of(numbers, 3), of(steps, 3)},
+        {": 100, beside 200 at 0 dB, set to ", of(matched, 3, {}, true), of(steps, 3)},
+        {"; dashed: the level of 200.", of(matched, 3, {}, true), of(twoReferences, 3, {}, true)},
+        {" of those who have a function, so not of P2 in ", of(constant, 3, both(rising, alikeOfP2), true),
+         of(constant, 3, rising, true)},
+        {"interval over participants, without P2 in ", of(steps, 3, set("level_db", "0", "P2")),
          of(steps, 3)},
-        {": 100 matched to 200 at ", of(matched, 3, {}, true), of(steps, 3)},
         {"Levels that were set by adjustment: means", of(matched, 3, {}, true), of(steps, 3)},
         {"were set to an end of their range, -12 to 18 dB: the match may lie beyond it",
          of(matched, 3, set("value", "-12"), true), of(matched, 3, {}, true)},
@@ -438,6 +454,17 @@ TEST(ReportSentences, WhatCouldNotBeTestedIsToldByItsKind) {
         notMadeIn("# R\ntest,effect,statistic,p,note\na,left out,note,,of P1\nb,factors,,,nobody varies\n"
                   "c,d,t,0.5,\n"),
         std::vector<std::string>{"Not made: b, factors: nobody varies"});
+}
+
+TEST(ReportSentences, BarsOfPointsBeginAtTheFirst) {
+    const auto ticks = [](const Protocol& protocol) {
+        const std::string page = pageOf(of(protocol, 8, {}, true));
+        const auto at = page.find("<title>Mean scores");
+        const std::string chart = page.substr(at, page.find("</svg>", at) - at);
+        return std::pair{chart.find(">0</text>") != chart.npos, chart.find(">7</text>") != chart.npos};
+    };
+    EXPECT_EQ(ticks(example("likert-seven")), std::pair(false, true));
+    EXPECT_EQ(ticks(example("taps-ratings")), std::pair(true, false));
 }
 
 TEST(ReportSentences, UnfinishedStaircasesAreDrawn) {

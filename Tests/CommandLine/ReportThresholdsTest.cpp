@@ -50,6 +50,23 @@ TEST_F(ReportThresholds, OfConstantStimuliArePlanned) {
         EXPECT_NE(plan.find(test), std::string::npos) << plan;
 }
 
+TEST_F(ReportThresholds, AndMatchesArePlannedWhateverTheSimulatedObserverFeels) {
+    if (!hasProgram("Rscript")) GTEST_SKIP() << "Rscript (Debian: r-base-core) is not here";
+    for (const auto& [name, test] :
+         {std::pair<std::string, std::string>{"detection-quest", "threshold by quest by condition"},
+          {"gap-steps", "threshold by staircase by condition"},
+          {"equal-sensation", "matched levels in match-60 by condition"}}) {
+        Protocol protocol =
+            loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/" + name + ".json").value;
+        for (SessionPlan& session : protocol.sessions)
+            if (session.adjustment) session.adjustment->leastDb = 10.0; // felt as strong at its end
+        writeThree(protocol);
+        std::filesystem::remove(folder_ / "analysis.R");
+        const std::string plan = call("study plan study.json --participants 4 --out plan.txt").out;
+        EXPECT_NE(plan.find("- test: pairs by t of " + test), std::string::npos) << plan;
+    }
+}
+
 TEST_F(ReportThresholds, OfTrainingsAreNotPlanned) {
     for (Protocol one : {findProtocol("level-steps").value,
                          loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/left-right.json").value}) {

@@ -163,7 +163,8 @@ TEST_F(Study, ProtocolsOfOnesOwnNeedNoCode) {
     const auto quest = analyse("levels", " level-quest-P01.csv level-quest-P02.csv");
     EXPECT_NE(quest.find("PHONE: threshold by QUEST+ "), std::string::npos) << quest;
     EXPECT_NE(quest.find(", 95 % interval "), std::string::npos) << quest;
-    EXPECT_NE(analyse("levels", " magnitudes-P01.csv").find("PHONE, 0.4: magnitude "), std::string::npos);
+    EXPECT_NE(analyse("levels", " magnitudes-P01.csv").find("PHONE, 0.4: geometric mean magnitude "),
+              std::string::npos);
     EXPECT_EQ(std::ranges::count(call("study list").out, '\n'), 13) << "eight, and five as published";
 }
 

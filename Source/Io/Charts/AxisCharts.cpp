@@ -16,7 +16,8 @@ using namespace detail;
 constexpr double chartWidth = 680.0, plotHeight = 250.0, leftMargin = 66.0, narrowGroup = 30.0;
 
 ChartAxis valueAxis(const BarChart& chart) {
-    double least = 0.0, most = chart.reference ? chart.reference->first : 0.0;
+    const double line = chart.reference ? chart.reference->first : chart.least;
+    double least = std::min(chart.least, line), most = std::max(chart.least, line);
     for (const BarSeries& series : chart.series)
         for (const auto& bar : series.bars)
             if (bar) {
@@ -24,8 +25,8 @@ ChartAxis valueAxis(const BarChart& chart) {
                 most = std::max({most, bar->value, bar->most});
             }
     for (const double ceiling : chart.ceilings) most = std::max(most, ceiling);
-    return ChartAxis::around(least, chart.most ? std::max(*chart.most, most > *chart.most * 1.2 ? most : 0.0)
-                                               : most);
+    if (chart.most) most = std::max(*chart.most, most > *chart.most * 1.2 ? most : 0.0);
+    return ChartAxis::around(least, most, chart.least > 0.0 ? static_cast<int>(std::ceil(most - least)) : 5);
 }
 
 std::vector<LegendItem> legendOf(const BarChart& chart) {
@@ -56,7 +57,7 @@ struct BarDrawing {
                 if (!bar) continue;
                 const double x = middle(g) + width * (static_cast<double>(s) -
                                                       0.5 * static_cast<double>(chart.series.size()));
-                const double zero = area.y(axis, std::clamp(0.0, axis.least, axis.most)),
+                const double zero = area.y(axis, std::clamp(chart.least, axis.least, axis.most)),
                              y = area.y(axis, bar->value);
                 svg.bar({x + 1.0, std::min(zero, y)}, width - 2.0, std::abs(zero - y), s);
                 if (bar->least < bar->most)
@@ -117,7 +118,7 @@ std::string barChart(const BarChart& chart) {
     const BarDrawing drawing{chart, svg, area, valueAxis(chart)};
     drawValueAxis(svg, area, drawing.axis, chart.valueWords);
     drawing.bars();
-    const double zero = area.y(drawing.axis, std::clamp(0.0, drawing.axis.least, drawing.axis.most));
+    const double zero = area.y(drawing.axis, std::clamp(chart.least, drawing.axis.least, drawing.axis.most));
     svg.line({area.left, zero}, {area.right, zero});
     drawing.ceilings();
     drawing.reference();

@@ -38,7 +38,8 @@ struct BarChart {
     std::optional<std::pair<double, std::string>> reference{}; ///< a line across all groups, and its label
     std::vector<double> ceilings{};                            ///< per group: the maximum possible value
     std::string ceilingWords{};
-    std::optional<double> most{}; ///< end of the axis, which begins at 0 or below; nullopt: from the values
+    double least = 0.0;           ///< where bars and the axis begin; the axis also below, as values are
+    std::optional<double> most{}; ///< end of the axis; nullopt: from the values
 
     /// One more bar of a chart of one series.
     void add(std::string group, ChartValue value) {

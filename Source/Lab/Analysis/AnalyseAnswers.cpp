@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Analyses of choices, ratings and levels, and of functions fitted to them, as text and tables.
 #include "Io/Text/CleanText.h"
+#include "Io/Text/NumberText.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Study/Psychometric.h"
@@ -31,16 +32,17 @@ const char* kindWord(LevelTrial::Kind kind) {
     return kind == LevelTrial::Kind::adjustment ? "matched at" : "magnitude";
 }
 
-/// "60 matched to 200 at", of levels that were set in a session of a known protocol.
+/// "60, beside 200 at 0 dB, set to", of levels that were set in a session of a known protocol.
 std::string kindWords(const LevelSummary& s, const std::optional<Protocol>& protocol) {
     std::set<std::string> all;
     if (protocol && s.kind == LevelTrial::Kind::adjustment)
         for (const SessionPlan& one : protocol->sessions) {
             if (!one.adjustment) continue;
-            std::string words = one.adjustment->alternative + " matched to";
+            std::string words = one.adjustment->alternative;
             for (const Alternative& other : one.alternatives)
-                if (other.name != one.adjustment->alternative) words += " " + other.name;
-            words += " at";
+                if (other.name != one.adjustment->alternative)
+                    words += ", beside " + other.name + " at " + numberText(other.levelDb) + " dB";
+            words += ", set to";
             if (s.condition.ends_with(" in " + one.name)) return words;
             all.insert(words);
         }
@@ -51,7 +53,8 @@ void tell(std::ostream& out, const LevelSummary& s, const std::optional<Protocol
     const bool isMagnitude = s.kind == LevelTrial::Kind::magnitude;
     const std::string stimulus = protocol && s.stimulus == "stimulus" ? "" : s.stimulus; // the only one
     out << cleanLine(s.condition) << (stimulus.empty() || s.condition.empty() ? "" : ", ")
-        << cleanLine(stimulus) << ": " << cleanLine(kindWords(s, protocol)) << ' ';
+        << cleanLine(stimulus) << ": " << (isMagnitude ? "geometric mean " : "")
+        << cleanLine(kindWords(s, protocol)) << ' ';
     const bool isThreshold = s.kind == LevelTrial::Kind::staircase || s.kind == LevelTrial::Kind::quest;
     if (isThreshold && s.thresholds.empty()) {
         out << "of nobody, " << counted(s.trials, "trial") << '\n';

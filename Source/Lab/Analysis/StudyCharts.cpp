@@ -103,7 +103,7 @@ std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summ
 }
 
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
-                        const std::vector<RatingSummary>& summaries) {
+                        const std::vector<RatingSummary>& summaries, int points) {
     BarChart chart{std::move(frame), "condition", "mean score", {}, {}};
     for (const std::string& scale : scales) chart.series.push_back({scale, {}});
     for (const RatingSummary& summary : summaries) {
@@ -116,16 +116,19 @@ std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales
         // scores of some points have an axis of their own
         if (std::ranges::any_of(summary.means, [](double mean) { return mean > 11.0; })) chart.most = 100.0;
     }
+    if (points > 0) chart.least = 1.0, chart.most = points;
     std::erase_if(chart.series, [](const BarSeries& one) { // not asked in this session
         return std::ranges::none_of(one.bars, [](const auto& bar) { return bar.has_value(); });
     });
     return barChart(chart);
 }
 
-std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind) {
+std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind,
+                       const std::optional<std::pair<double, std::string>>& reference) {
     const bool isMagnitude = kind == LevelTrial::Kind::magnitude;
     BarChart chart{std::move(frame), isMagnitude ? "" : "lines: 95 % intervals",
                    isMagnitude ? "geometric mean" : "level (dB)"};
+    chart.reference = reference;
     for (const LevelSummary& s : summaries)
         if (s.kind == kind && !std::isnan(s.estimate))
             chart.add(s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
@@ -205,23 +208,35 @@ FitWords fitWords(std::span<const ColumnName> columns, const std::string& level,
 }
 
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
-                              const PsychometricModel& model, const FitWords& words,
-                              const LevelSummary* told) {
-    const auto counts = countByLevel(trials, [](const LevelAnswer& trial) { return trial.counted(); });
+                              const PsychometricModel& model, const FitWords& words, const LevelSummary* told,
+                              std::vector<std::string>* leftOut) {
+    const auto fits = psychometricByParticipant(told ? std::vector<LevelAnswer>{} : trials, model);
+    std::vector<LevelAnswer> shown = trials; // of those who have a function, if somebody has
+    const auto isLeftOut = [](const auto& own) { return !own.fit.fault.empty(); };
+    if (!std::ranges::all_of(fits, isLeftOut))
+        for (const auto& own : fits)
+            if (isLeftOut(own)) {
+                std::erase_if(shown, [&](const auto& trial) { return trial.participant == own.participant; });
+                if (leftOut != nullptr) leftOut->push_back(own.participant);
+            }
+    const auto counts = countByLevel(shown, [](const LevelAnswer& trial) { return trial.counted(); });
     const double least = counts.front().level, most = counts.back().level;
     LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
     const bool isOfMany = byParticipant(trials).size() > 1;
-    for (const auto& own : psychometricByParticipant(told ? std::vector<LevelAnswer>{} : trials, model)) {
-        if (!own.fit.fault.empty()) continue;
+    for (const auto& own : fits) {
+        if (isLeftOut(own)) continue;
         thresholds.push_back(own.fit.function.threshold);
         if (own.fit.hasJnd) widths.push_back(own.fit.function.width);
         lapses.push_back(own.fit.function.lapse);
         chart.series.push_back(curve(own.fit.function, least, most));
         chart.series.back().isFaint = true;
     }
-    LineSeries answers{isOfMany ? "trials of all participants" : "trials", {}};
+    LineSeries answers{shown.size() < trials.size() ? "trials of those with a function"
+                       : isOfMany                   ? "trials of all participants"
+                                                    : "trials",
+                       {}};
     answers.isDrawnThrough = false;
     const auto largest = static_cast<double>(std::ranges::max(counts, {}, &LevelCount::trials).trials);
     for (const LevelCount& count : counts) {
@@ -267,7 +282,7 @@ std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& tria
         std::size_t i = 0;
         for (const auto& [level, values] : levels) relative[level].push_back(means[i++] - own);
     }
-    LineChart chart{std::move(frame), levelWords, "magnitude / participant's mean", {}};
+    LineChart chart{std::move(frame), levelWords, "magnitude / participant's mean in that condition", {}};
     chart.isLogarithmic = true;
     LineSeries points{"geometric mean of participants", {}};
     points.isDrawnThrough = false;

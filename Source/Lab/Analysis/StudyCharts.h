@@ -36,12 +36,14 @@ std::string mergedChart(ChartFrame frame, const ConditionResolution& one);
 std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries,
                         bool ofMedians = false);
 
-/// Mean scores of conditions, one series per scale.
+/// Mean scores of conditions, one series per scale. `points`: scores are from 1 to so many; 0: from 0.
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
-                        const std::vector<RatingSummary>& summaries);
+                        const std::vector<RatingSummary>& summaries, int points = 0);
 
-/// Means of one kind, of each condition and stimulus; empty if there are none.
-std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind);
+/// Means of one kind, of each condition and stimulus; empty if there are none. `reference`: a line and its
+/// label.
+std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind,
+                       const std::optional<std::pair<double, std::string>>& reference = {});
 
 /// Name of the chart with that number in a picture.
 inline std::string chartName(std::size_t number) { return "chart" + std::to_string(number); }
@@ -74,10 +76,12 @@ int decimalsOf(double jnd) noexcept;
 
 // SVG. Participants without a fit are omitted. Any thread (allocates).
 
-/// `told`: the threshold of the method that chose the levels, shown in place of those of the fits.
+/// `told`: the threshold of the method that chose the levels, shown in place of those of the fits. `leftOut`
+/// gets those without a function, whose trials are not shown unless nobody has one.
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                               const PsychometricModel& model, const FitWords& words,
-                              const LevelSummary* told = nullptr);
+                              const LevelSummary* told = nullptr,
+                              std::vector<std::string>* leftOut = nullptr);
 std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                           const std::string& levelWords);
 

@@ -60,7 +60,8 @@ std::string setWords(const GridSet& set) {
 }
 
 std::string setWords(const CallSet& set) {
-    return std::string{"calls of physvib"} + (set.factors.empty() ? "" : " by ") +
+    return std::string{"calls of physvib"} + (set.call.empty() ? "" : " " + spoken(set.call)) +
+           (set.factors.empty() ? "" : " by ") +
            joinedWords(set.factors, ", ",
                        [](const StudyFactor& factor) {
                            return factor.name + " (" + joinedWords(factor.values, "; ", inFull) +
@@ -177,8 +178,12 @@ std::vector<std::string> protocolSentences(const Protocol& protocol) {
     std::vector<std::string> sentences{
         "Protocol " + protocol.name + (protocol.title.empty() ? std::string{} : ": " + protocol.title) +
             (protocol.title.ends_with('?') ? "" : "."),
-        "Every participant does each session in each condition; the order of conditions is " +
-            std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)]) + "."};
+        "Every participant is to do each session" +
+            (protocol.conditions.size() < 2
+                 ? std::string{}
+                 : " in each condition; the order of conditions is " +
+                       std::string(conditionOrderNames[static_cast<std::size_t>(protocol.conditionOrder)])) +
+            "."};
     sentences.push_back(levelChain(protocol, "as planned"));
     if (protocol.hasPinkNoise)
         sentences.push_back("Pink noise of " + dbWords(protocol.pinkNoiseDb) +

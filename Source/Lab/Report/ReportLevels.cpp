@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Report section on levels: thresholds with psychometric functions, adjusted levels, and magnitude estimates.
+#include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
+#include "Lab/Files/TrialLog.h"
 #include "Lab/Report/ReportBuilder.h"
+#include "Lab/Study/StudyTasks.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace physvib {
 namespace {
@@ -32,6 +36,7 @@ void tellFits(ReportBuilder& report) {
 void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials,
                     const std::vector<LevelSummary>& summaries) {
     std::vector<std::string> charts;
+    std::string without;
     PsychometricModel model;
     model.guess = guessOf(report.trials);
     bool isOfMany = false;
@@ -45,6 +50,10 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
             report.frame(s.condition + (s.kind == LevelTrial::Kind::quest ? " by QUEST+" : " by staircase")),
             own, model, FitWords{}, &s));
         isOfMany |= s.participants > 1;
+        for (const auto& [who, answers] : byParticipant(own))
+            if (std::ranges::find(s.thresholds, who, &std::pair<std::string, double>::first) ==
+                s.thresholds.end())
+                without += (without.empty() ? "" : ", ") + inSession(who, s.condition);
     }
     if (charts.empty()) return;
     report.page.subheading("Answers by level");
@@ -53,11 +62,11 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
                     (report.people() > 1 ? "all participants' " : "") +
                     "trials, larger where there were more. Dotted: " +
                     (isOfMany ? "mean threshold, shaded its 95 % interval over participants" : "threshold") +
-                    " (levels.csv).");
+                    (without.empty() ? "" : ", without " + without) + " (levels.csv).");
 }
 
 void tellMagnitudes(ReportBuilder& report) {
-    report.page.subheading("Magnitudes");
+    report.page.subheading("Power law");
     const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"stimulus", "value", true});
     if (!data) return report.page.note("no power law is fitted: " + report.said(data.error));
     const auto words = report.analysis("power-law", report.options(), "power-law.csv");
@@ -68,7 +77,8 @@ void tellMagnitudes(ReportBuilder& report) {
                                        condition.trials, "level"));
     report.page.figure(charts, "Magnitude estimations: geometric means" + report.intervals() +
                                    ", and the mean power law, both axes logarithmic. Each participant's "
-                                   "numbers are divided by their own geometric mean first.");
+                                   "numbers are divided by their own geometric mean in that condition first" +
+                                   (charts.size() > 1 ? ": conditions cannot be compared here." : "."));
 }
 
 /// Warns about adjustments at the end of their range, which may have been limited by it.
@@ -91,6 +101,17 @@ void tellEndsOfRanges(ReportBuilder& report) {
     }
 }
 
+/// What all adjustments are compared with, where that has one name and one level.
+std::optional<std::pair<double, std::string>> comparedLevel(const ReportTrials& trials) {
+    std::set<std::pair<double, std::string>> all;
+    if (trials.protocol)
+        for (const SessionPlan& plan : trials.protocol->sessions)
+            for (const Alternative& one : plan.alternatives)
+                if (plan.adjustment && one.name != plan.adjustment->alternative)
+                    all.emplace(one.levelDb, one.name);
+    return all.size() == 1 ? std::optional{*all.begin()} : std::nullopt;
+}
+
 } // namespace
 
 void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, AnalysisJob fit,
@@ -109,13 +130,20 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
         "lapse rates of up to " + numberText(100.0 * model.mostLapses()) +
         (model.guess > 0.0 ? " %" : " % at both ends, the same at each");
     std::vector<std::string> charts;
-    for (const auto& condition : data.conditions)
+    std::string without;
+    for (const auto& condition : data.conditions) {
+        std::vector<std::string> leftOut;
         charts.push_back(psychometricChart(
             report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
-            condition.trials, model, words));
-    const std::string caption = "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
-                                ". Circles: " + (report.people() > 1 ? "all participants' " : "") +
-                                "trials, larger where there were more";
+            condition.trials, model, words, nullptr, &leftOut));
+        if (!leftOut.empty())
+            without += (without.empty() ? "" : "; ") + inSession(joined(leftOut, ", "), condition.name);
+    }
+    const std::string caption =
+        "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
+        ". Circles: " + (report.people() > 1 && without.empty() ? "all participants' trials" : "trials") +
+        (without.empty() ? "" : " of those who have a function, so not of " + without) +
+        ", larger where there were more";
     if (!isFitted) return report.page.figure(charts, caption + ".");
     report.page.figure(
         charts,
@@ -130,7 +158,12 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
 }
 
 void tellLevels(ReportBuilder& report) {
-    report.page.heading("Levels");
+    const Cells cell{report.trials.all};
+    const bool isOfNumbers = report.trials.knowTasks() && !hasAdaptiveRows(report.trials) &&
+                             std::ranges::none_of(report.trials.all.rows, [&](const CsvRow& row) {
+                                 return answerOf(cell(row, trialColumns::task)) == AnswerKind::level;
+                             });
+    report.page.heading(isOfNumbers ? "Magnitudes" : "Levels");
     if (!report.trials.knowTasks() && !report.trials.all.column("value")) {
         report.page.note("the tables do not say how levels were chosen: functions are fitted to the answers, "
                          "reversals are not looked for");
@@ -150,10 +183,13 @@ void tellLevels(ReportBuilder& report) {
     if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest))
         report.addTable("thresholds.csv", words.participants);
     tellEndsOfRanges(report);
-    if (std::ranges::count(summaries, LevelTrial::Kind::adjustment, &LevelSummary::kind) > 1)
+    if (std::ranges::count(summaries, LevelTrial::Kind::adjustment, &LevelSummary::kind) > 1) {
+        const auto reference = comparedLevel(report.trials);
         report.page.figure(
-            {levelChart(report.frame("Matched levels"), summaries, LevelTrial::Kind::adjustment)},
-            "Levels that were set by adjustment: means" + report.intervals() + ".");
+            {levelChart(report.frame("Matched levels"), summaries, LevelTrial::Kind::adjustment, reference)},
+            "Levels that were set by adjustment: means" + report.intervals() +
+                (reference ? "; dashed: the level of " + reference->second : std::string{}) + ".");
+    }
     tellThresholds(report, report.read(readLevels).value.conditions.front().trials, summaries);
     if (has(LevelTrial::Kind::magnitude) && report.trials.all.column("stimulus")) tellMagnitudes(report);
 }

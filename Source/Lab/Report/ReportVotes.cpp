@@ -80,10 +80,17 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
     const bool hasIntervals = std::ranges::any_of(summaries, [](const RatingSummary& one) {
         return std::ranges::any_of(one.halfIntervals, [](double half) { return half > 0.0; });
     });
+    std::set<int> all; // points of the scales of this session, or of all where they are not parted
+    for (const SessionPlan& plan :
+         report.trials.protocol ? report.trials.protocol->sessions : std::vector<SessionPlan>{})
+        if (plan.answer() == AnswerKind::scores && !plan.isTraining &&
+            (session.name.empty() || session.name == plan.name))
+            all.insert(plan.points);
+    const int points = all.size() == 1 ? *all.begin() : 0;
     const auto draw = [&](const char* words, const char* figure, const std::vector<RatingSummary>& shown) {
         const std::string title = inSession(words, session.name);
         report.page.figure(
-            {scoresChart(report.frame(title), data.scales, shown)},
+            {scoresChart(report.frame(title), data.scales, shown, points)},
             title + report.asThesis(figure) + report.intervals(hasIntervals) +
                 (report.people() > 1 && std::ranges::count(shown, 1, &RatingSummary::participants) > 0
                      ? ", none of one alone"

@@ -232,17 +232,44 @@ constexpr std::string_view testMark = "- test: ";
 
 std::string codeOf(int number) { return std::string("P").append(std::to_string(number)); }
 
+/// Sets and finds levels about the middle of their range, whatever the observer feels: none at an end.
+void answerWithin(const Experiment& experiment, SeededRandom& random, Answer& answer) {
+    const SessionPlan& session = experiment.session();
+    const double middle = 0.5 + 0.1 * random.normal();
+    const auto levelIn = [&](const auto& plan) {
+        return plan.leastDb + middle * (plan.mostDb - plan.leastDb);
+    };
+    if (const auto& plan = session.adjustment)
+        answer.value = std::round(levelIn(*plan) / plan->stepDb) * plan->stepDb;
+    const std::string* const moved = session.adaptedAlternative();
+    if (moved == nullptr) return;
+    const double threshold = session.quest ? levelIn(*session.quest) : levelIn(*session.staircase);
+    answer.response = experiment.trial().levelDb > threshold
+                          ? *moved
+                          : std::ranges::find_if(session.alternatives, [&](const Alternative& one) {
+                                return one.name != *moved;
+                            })->name;
+}
+
 std::string simulatedFile(const Protocol& protocol, int number) {
     const Participant participant{codeOf(number), number, "simulated"};
     Protocol rehearsal = protocol;
-    for (SessionPlan& session : rehearsal.sessions) // so that a function is found where there may be one
+    for (SessionPlan& session : rehearsal.sessions) { // so that each value is found that there may be
         if (!session.correct.empty() || session.answers.size() == 2)
             session.repetitions = std::max(session.repetitions, 100);
+        if (session.staircase) session.staircase->mostTrials = std::max(session.staircase->mostTrials, 1000);
+        if (session.quest) session.quest->trials = std::max(session.quest->trials, 40);
+    }
     Experiment experiment{rehearsal, participant};
-    const SimulatedObserver observer{ObserverSettings{}, rehearsal, participant};
+    ObserverSettings errs; // nobody is always right
+    errs.placeBlur = 0.4, errs.pulsePlaceConfusion = 0.3;
+    const SimulatedObserver observer{errs, rehearsal, participant};
+    SeededRandom random{static_cast<std::uint64_t>(protocol.seed), "plan/" + participant.code};
     std::string text = trialHeader(protocol, participant, PHYSVIB_VERSION);
     while (!experiment.isDone()) {
-        TrialRecord record = experiment.take(observer.answer(experiment));
+        Answer answer = observer.answer(experiment);
+        if (!answer.ranOut) answerWithin(experiment, random, answer);
+        TrialRecord record = experiment.take(std::move(answer));
         text += trialRow(protocol, participant, record);
         if (number > 1 || record.trial.condition > 0 || record.trial.number > 1 ||
             protocol.sessions[record.trial.session].answerSeconds <= 0.0)
@@ -296,16 +323,29 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
     text += listOf("Conditions", conditions) + listOf("Sessions, with their ends", sessions);
     text += listOf("Participants", {counted(static_cast<std::size_t>(participants), "participant") +
                                     ", numbers from 1, each once; nobody more or fewer, whatever is found"});
-    std::vector<std::string> exclusions{
-        "all trials of those for whom the table of people has a reason",
-        "trials that did not leave as planned, ran out of time or have no answer",
-        "tests leave out who lacks a combination of levels; where somebody does, an analysis of variance "
-        "also "
-        "has a mixed model of all (r-cran-lme4); no factor is tested of which fewer than half of the people "
-        "have all levels; who did not finish is named"};
     const auto has = [&](auto is) {
         return std::ranges::any_of(protocol.sessions, [&](const auto& s) { return !s.isTraining && is(s); });
     };
+    const bool isListed = participants < 2 || report.value.files.contains(testsTable);
+    const auto lists = [&](std::string_view words) { // or may have it, where R was not there
+        return !isListed || std::ranges::any_of(tests, [=](const std::string& test) {
+            return test.find(words) != test.npos;
+        });
+    };
+    const bool hasAnova = lists("analysis of variance"), hasPairs = lists("pairs by");
+    std::vector<std::string> exclusions{
+        "all trials of those for whom the table of people has a reason",
+        std::string{"trials that did not leave as planned"} +
+            (has([](const SessionPlan& s) { return s.answerSeconds > 0.0; }) ? ", ran out of time" : "") +
+            " or have no answer",
+        "who did not finish is named"};
+    if (hasAnova || hasPairs)
+        exclusions.push_back(
+            std::string{"tests leave out who lacks a combination of levels; "} +
+            (hasAnova ? "where somebody does, an analysis of variance also has a mixed model of all "
+                        "(r-cran-lme4); "
+                      : "") +
+            "no factor is tested of which fewer than half of the people have all levels");
     std::vector<std::string> measures;
     if (has([](const SessionPlan& s) { return s.staircase.has_value(); }))
         measures.emplace_back(staircaseThresholds);
@@ -351,19 +391,33 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
             "fits as well (likelihood ratio, p > 0.05), of widths of 20 times the range of the "
             "levels, of thresholds outside it; of steps the JND");
     text += listOf("Exclusions", exclusions);
-    text += listOf(
-        "Corrections",
-        {"of factors of more than two levels within people Greenhouse and Geisser's, in an analysis of "
-         "variance",
-         std::string{"of the pairs of a factor "} +
-             (protocol.name.ends_with(thesisSuffix) ? "Bonferroni's" : "Holm's") +
-             "; Holm's of shares against chance, over all lines, of an effect over several scales or "
-             "alternatives, and of all pairs of a factor over more than two alternatives",
-         "over those tests that can be made: what cannot be tested is named, and counts in none"});
+    std::vector<std::string> corrections;
+    if (hasAnova)
+        corrections.emplace_back("of factors of more than two levels within people Greenhouse and Geisser's, "
+                                 "in an analysis of variance");
+    if (hasPairs)
+        corrections.push_back(std::string{"of the pairs of a factor "} +
+                              (protocol.name.ends_with(thesisSuffix) ? "Bonferroni's" : "Holm's"));
+    if (lists("against chance"))
+        corrections.emplace_back("of shares against chance Holm's, over the lines of each session");
+    std::set<std::string> scales;
+    for (const SessionPlan& session : protocol.sessions)
+        if (!session.isTraining && session.answer() == AnswerKind::scores)
+            scales.insert(session.scales.begin(), session.scales.end());
+    if (scales.size() > 1 && (hasAnova || hasPairs))
+        corrections.emplace_back("of an effect over several scales Holm's");
+    if (has([](const SessionPlan& s) {
+            return s.answer() == AnswerKind::choice && std::max(s.alternatives.size(), s.answers.size()) > 2;
+        }) &&
+        lists("choice="))
+        corrections.emplace_back(
+            "of an effect, and of all pairs of a factor, over more than two alternatives Holm's");
+    corrections.emplace_back(corrections.empty() ? "none"
+                                                 : "over those tests that can be made: what cannot be tested "
+                                                   "is named, and counts in none");
+    text += listOf("Corrections", corrections);
     text += listOf("Tests over participants, as analysis.R runs them in R", tests);
-    if (tests.empty())
-        text += participants < 2 || report.value.files.contains(testsTable) ? "none\n"
-                                                                            : std::string{notListed} + "\n";
+    if (tests.empty()) text += (isListed ? "none" : std::string{notListed}) + "\n";
     return PlannedStudy{std::move(text), std::move(report.value.files[analysisScriptName])};
 }
 

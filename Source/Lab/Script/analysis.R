@@ -623,11 +623,12 @@ study <- function(study, scales = character(), points = character(), half = "thr
     }
   })
   from("places.csv", c("distance", "variable"))
+  has.functions <- function(words) file.exists("psychometric-stimuli.csv") && any(endsWith(table.of("psychometric-stimuli.csv")$condition, words))
   each("choose", if ("choice" %in% names(d)) "choice" else "response", function(own, words) {
     if (is.told) own <- own[own$correct == "" | own$level_db == "", ] # levels that follow the answers
     else if (!("choice" %in% names(d))) return()
     if (length(unique(own$participant)) < 2) return()
-    choices(paste0("shares of the alternatives", words, " against chance"), own)
+    if (!has.functions(words)) choices(paste0("shares of the alternatives", words, " against chance"), own)
     names <- alternatives.of(own)
     before <- unique(results$test)
     stimuli <- if ("stimulus" %in% names(own)) "stimulus"; isFunction <- file.exists("psychometric-stimuli.csv") # which tells more of levels
