@@ -63,6 +63,7 @@ rows.of <- function(file, measure, factors, where = character(), between = chara
   all <- c(attr(file, "absent"), d$participant)
   column <- if (measure %in% names(d)) measure else sub("=.*", "", measure)
   d <- d[!no.value(d, column, measure), ]
+  if (startsWith(measure, "choice=") && length(unique(offered.of(d))) > 1) stop("not comparable: other alternatives were offered")
   y <- if (measure %in% names(d)) suppressWarnings(as.numeric(d[[column]])) else as.numeric(d[[column]] == sub("^[^=]*=", "", measure))
   if (anyNA(y)) stop(paste0("expected numbers in the column ", column, ", found ", d[[column]][is.na(y)][1]))
   rows <- data.frame(id = d$participant, y = y)
@@ -126,6 +127,9 @@ rank.test <- function(a, b = NULL) {
   t$p.value <- min(1, 2 * min(sum(ways[1:at]), sum(ways[at:sums])) / sum(ways)); t$method <- "ranks, exact"
   t
 }
+fewest.different <- 3 # people whose ranks say anything of all
+do.differ.few <- function(differ) sum(differ) < min(fewest.different, length(differ))
+few.differ <- function(differ) paste("of", length(differ), "people", sum(differ), if (sum(differ) == 1) "differs" else "differ", "between the levels: expected", fewest.different, "or more")
 # What a test by ranks did not count, and how it came to its p.
 ranks.note <- function(t, equal, words) paste(c(if (equal > 0) paste(equal, "of them", words), if (grepl("rank", t$method) && !grepl("exact", t$method)) "p by a normal approximation"), collapse = ", ")
 # A test that R refuses is a line that says why; the others go on.
@@ -238,8 +242,10 @@ friedman <- function(test, file, measure, within = character(), where = characte
   rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
   tell.lacking(test, cells); tell.levels(c(within, between))
   for (i in which(within %in% tested)) attempt(test, within[i], {
-    t <- friedman.test(even(by.level(rows, cells, i)))
+    own <- even(by.level(rows, cells, i)); differ <- apply(own, 1, function(y) any(y != y[1]))
+    t <- friedman.test(own)
     if (is.nan(t$p.value)) stop("all levels are tied")
+    if (do.differ.few(differ)) stop(few.differ(differ))
     result(test, within[i], "chi-squared", t$statistic, t$p.value, n, t$parameter, size = "Kendall's W", effect_size = t$statistic / (n * t$parameter))
   })
   for (b in intersect(between, tested)) attempt(test, b, {
@@ -279,7 +285,8 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
       size <- max(abs(c(a, b)), 1e-300); different <- if (is.signed) even(a - b, size)
       t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else if (is.signed) rank.test(different) else rank.test(even(a, size), even(b, size)), error = function(e) list(p.value = NaN))
       out <- list(p = t$p.value, value = t$statistic, df = NA, size = "rank-biserial r", interval = c(NA, NA), n = if (is.within) n else length(a) + length(b))
-      if (is.nan(t$p.value)) return(out)
+      if (is.signed && by == "ranks" && any(different != 0) && do.differ.few(different != 0)) out[c("p", "note")] <- list(NaN, few.differ(different != 0))
+      if (is.nan(out$p)) return(out)
       if (by == "t") return(modifyList(out, list(df = t$parameter, size = "d_z", effect = mean(a - b) / sd(a - b), difference = mean(a - b), interval = t$conf.int)))
       share <- if (is.signed) t$statistic / sum(seq_len(sum(different != 0))) else t$statistic / (length(a) * length(b))
       modifyList(out, list(effect = 2 * share - 1, difference = if (is.signed) median(a - b) else even(median(a) - median(b), size) * size,
@@ -292,7 +299,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
                         sapply(own, function(y) if (by == "t" && length(y) > 1) paste(", standard deviation", format(signif(sd(y), 3), digits = 3)) else ""), collapse = "; "), "\n", sep = "")
     for (k in seq_along(tests)) {
       one <- tests[[k]]; effect <- paste0(f, ": ", two[[k]][1], " - ", two[[k]][2])
-      if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = "the differences do not vary")
+      if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = c(one$note, "the differences do not vary")[1])
       else result(test, effect, if (by == "t") "t" else if (is.signed) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], correction, size = one$size,
                   effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], note = c(one$note, "")[1], lines = tested)
     }
@@ -305,15 +312,18 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
   }
 }) }
 # Participants' shares of an alternative against chance: of all trials, each level of a factor, each combination of levels. Signed ranks; where all lean
-# equally far, as where they are unanimous, exact binomials of how many lean to it. The alternatives are those that were there to choose.
+# equally far, as where they are unanimous, exact binomials of how many lean to it. Of each alternative the trials count that offered it.
 choices <- function(test, file, factors = NULL, where = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
   d <- where.is(if (is.data.frame(file)) file else table.of(file), where)
   if ("task" %in% names(d)) d <- d[d$task == "choose", ]
   if (!("choice" %in% names(d))) d$choice <- d$response
   d <- d[d$choice != "", ]
-  words <- alternatives.of(d); k <- length(words)
-  if (k < 2) stop(paste("expected two alternatives or more, found", k))
-  cat("  chance is ", format(100 / k, digits = 3), " %, of ", k, " alternatives, ", if (any(parts.offered(d) != "")) "which were offered" else "the answers that there are", ": ", paste(words, collapse = ", "), "\n", sep = "")
+  d$offered <- offered.of(d); sets <- in.order(d$offered); words <- words.in(sets)
+  if (any(sets == "")) stop("which alternatives were offered is not known: no stimulus has all answers, nor has each as many (a column parts, as A|B, tells them)")
+  if (length(words) < 2) stop(paste("expected two alternatives or more, found", length(words)))
+  for (s in sets) cat("  chance is ", format(100 / length(words.in(s)), digits = 3), " %, of ", length(words.in(s)), " alternatives, ",
+                      if (any(parts.offered(d) != "")) "which were offered" else if (length(sets) > 1) "the answers to their stimuli" else "the answers that there are", ": ", paste(words.in(s), collapse = ", "), "\n", sep = "")
+  d$k <- lengths(lapply(d$offered, words.in))
   there <- union(everybody, d$participant); gone <- character()
   if (is.null(factors)) { # the same rows as where levels are compared
     lone <- lone.levels(d, c("group", "condition", "stimulus")); gone <- lone$gone
@@ -331,9 +341,14 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   if (length(lacking <- setdiff(d$participant, whole.in(TRUE))) > 0) result(test, "left out", "note", NA, NA, length(unique(d$participant)), note = paste0(values.lacking(lacking), ": left out of lines over what they lack"))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
   if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "note", NA, NA, length(unique(d$participant)), note = paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
-  lines <- expand.grid(group = groups, word = if (k == 2) words[1] else words, stringsAsFactors = FALSE)
+  here <- function(group) if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m %in% group))
+  lines <- do.call(rbind, lapply(groups, function(group) { # of two, one has the other's share; none where chances differ
+    own <- d[here(group), ]; one <- words.in(own$offered); if (length(one) == 2) one <- one[1]
+    data.frame(group, word = Filter(function(word) length(unique(own$k[is.offered(word, own)])) == 1, one), stringsAsFactors = FALSE)
+  }))
+  lines <- lines[order(match(lines$word, words), match(lines$group, groups)), ]
   tests <- Map(function(group, word) {
-    of <- if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m %in% group))
+    of <- here(group) & is.offered(word, d); k <- d$k[of][1]
     of <- of & d$participant %in% whole.in(of)
     hits <- tapply(d$choice[of] == word, d$participant[of], sum); n <- tapply(of[of], d$participant[of], length)
     lead <- (k * hits - n) / n # leads of the same size tie to the bit
@@ -343,15 +358,31 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   }, lines$group, lines$word)
   ps <- sapply(tests, function(one) if (is.null(one$t)) NA else one$t$p.value)
   corrected <- p.adjust(ps, "holm")
+  if ((tested <- sum(!is.na(ps))) > 1) cat("  Holm's correction is over these ", tested, " lines that could be tested\n", sep = "")
   for (i in seq_along(tests)) {
-    one <- tests[[i]]; effect <- if (k == 2) lines$group[i] else paste0(lines$word[i], ", ", lines$group[i])
+    one <- tests[[i]]; effect <- if (length(words) == 2) lines$group[i] else paste0(lines$word[i], ", ", lines$group[i])
     if (is.na(ps[i])) result(test, effect, "V", NA, NA, one$n, note = "fewer than two participants with all of it, or shares of chance alone")
     else result(test, effect, if (is.null(one$t$parameter)) "V" else paste("exact binomial, of", one$t$parameter, "people who lean to one side those to", lines$word[i]), one$t$statistic, ps[i], one$n, p_corrected = corrected[i],
                 correction = "holm", size = paste("share of", lines$word[i]), effect_size = one$share, note = ranks.note(one$t, one$equal, "at chance"))
   }
 }) }
-alternatives.of <- function(d) {
-  sort(setdiff(unique(c(d$choice, parts.offered(d))), ""), method = "radix")
+words.in <- function(sets) sort(setdiff(unlist(strsplit(unique(sets), "|", fixed = TRUE)), ""), method = "radix")
+is.offered <- function(word, d) { sets <- unique(d$offered); d$offered %in% sets[vapply(sets, function(s) word %in% words.in(s), NA)] }
+# What each row had to choose from, as "A|B": its parts, else the answers of its session, or of its stimulus where each has as many and none has all; "" is
+# not known.
+offered.of <- function(d) {
+  one <- function(words) paste(words.in(words), collapse = "|")
+  all <- rep(one(c(d$choice, parts.offered(d))), nrow(d))
+  if (any(parts.offered(d) != "")) {
+    each <- unique(d$parts); own <- vapply(each, one, "")[match(d$parts, each)]; own[own == ""] <- all[own == ""]
+    asked <- unique(data.frame(choice = d$choice, own))
+    return(unname(if (all(mapply(function(choice, own) choice %in% c("", words.in(own)), asked$choice, asked$own))) own else all)) # parts may be no alternatives
+  }
+  is.told <- !is.null(d$task) && !is.null(d$session); key <- if (is.told) d$session else d$stimulus
+  if (is.null(key)) return(all)
+  sets <- vapply(split(d$choice, key), one, ""); n <- lengths(strsplit(sets, "|", fixed = TRUE)); k <- length(words.in(d$choice))
+  if (is.told || (k > 2 && n[1] > 1 && n[1] < k && all(n == n[1]))) return(unname(sets)[match(key, names(sets))])
+  if (k > 2 && all(n < k)) rep("", nrow(d)) else all
 }
 parts.offered <- function(d) if ("parts" %in% names(d)) unlist(strsplit(d$parts, "|", fixed = TRUE))
 
@@ -629,12 +660,14 @@ study <- function(study, scales = character(), points = character(), half = "thr
     else if (!("choice" %in% names(d))) return()
     if (length(unique(own$participant)) < 2) return()
     if (!has.functions(words)) choices(paste0("shares of the alternatives", words, " against chance"), own)
-    names <- alternatives.of(own)
-    before <- unique(results$test)
     stimuli <- if ("stimulus" %in% names(own)) "stimulus"; isFunction <- file.exists("psychometric-stimuli.csv") # which tells more of levels
-    for (a in if (length(names) == 2) names[1] else names)
-      compare(paste0("choice=", a, words), own, paste0("choice=", a), "ranks", c("group", "condition", if (!isFunction) stimuli), if (isFunction) stimuli)
-    if (length(names) > 2) across(setdiff(unique(results$test), before), "alternatives", paste0("choice=", names, words))
+    sets <- offered.of(own)
+    for (set in setdiff(in.order(sets), "")) { # trials of other alternatives are not comparable
+      names <- words.in(set); before <- unique(results$test); of <- paste0(words, if (!all(sets == set)) paste(" where offered were", paste(names, collapse = ", ")))
+      for (a in if (length(names) == 2) names[1] else names)
+        compare(paste0("choice=", a, of), own[sets == set, ], paste0("choice=", a), "ranks", c("group", "condition", if (!isFunction) stimuli), if (isFunction) stimuli)
+      if (length(names) > 2) across(setdiff(unique(results$test), before), "alternatives", paste0("choice=", names, of))
+    }
   })
   before <- unique(results$test)
   aside <- character() # sessions whose scales are objects

@@ -64,13 +64,13 @@ for (n in c(2, 3, 6, 49, 50, 51)) for (digits in c(0, 6)) for (k in c(2, 3)) {
   d$y <- round(rnorm(nrow(d), as.integer(factor(d$condition)) / 3), digits)
   rows(d)
   wide <- with(d, tapply(y, list(participant, condition), mean)); words <- paste("n", n, "digits", digits, "levels", k)
-  r <- friedman.test(wide); ours <- told(friedman("t", "trials.csv", "y", "pair"))
-  if (is.nan(r$p.value)) { if (ours$note == "") fault("Friedman of ties", words) } else same(paste("Friedman", words), ours$p, r$p.value)
+  r <- friedman.test(wide); ours <- told(friedman("t", "trials.csv", "y", "pair")); few <- function(differ) sum(differ) < min(3, n)
+  if (is.nan(r$p.value) || few(apply(wide, 1, function(y) any(y != y[1])))) { if (ours$note == "") fault("Friedman of ties", words) } else same(paste("Friedman", words), ours$p, r$p.value)
   for (by in c("t", "ranks", "unpaired ranks")) for (correction in c("holm", "bonferroni")) {
     paired <- by != "unpaired ranks"
     ours <- told(pairs.test("t", "trials.csv", "y", "pair", by = sub("unpaired ", "", by), correction = correction, paired = paired))
     two <- combn(k, 2)
-    ps <- apply(two, 2, function(i) { a <- wide[, i[1]]; b <- wide[, i[2]]
+    ps <- apply(two, 2, function(i) { a <- wide[, i[1]]; b <- wide[, i[2]]; if (by == "ranks" && few(a != b)) return(NaN) # one who differs of three
       tryCatch(if (by == "t") t.test(a, b, paired = TRUE)$p.value else if (paired) exact.p(a - b) else exact.p(a, b), error = function(e) NaN) })
     corrected <- p.adjust(ps, correction)
     for (i in seq_along(ps)) { own <- line(ours, paste0("pair: c", two[1, i], " - c", two[2, i]))
@@ -106,6 +106,24 @@ ours <- told(choices("t", "trials.csv"))
 if (!any(grepl("chance is 33.3 %, of 3 alternatives, the answers that there are: A, B, C", capture.output(choices("t", "trials.csv"))))) fault("chance has no value")
 for (word in c("A", "B", "C")) same(paste(word, "of three"), line(ours, paste0(word, ", all"))$p,
   exact.p(as.vector(tapply(d$choice == word, d$participant, function(x) (3 * sum(x) - length(x)) / length(x)))))
+# Pairs of three alternatives: chance is of those that were offered, and nothing is said of or compared with what was not; by parts, or by the answers to a stimulus.
+d <- expand.grid(trial = 1:8, stimulus = c("AB", "AC", "BC"), condition = c("c1", "c2"), participant = person(6), stringsAsFactors = FALSE)
+d$choice <- substring(d$stimulus, i <- sample(1:2, nrow(d), TRUE, c(0.7, 0.3)), i); d$parts <- paste(substring(d$stimulus, 2), substring(d$stimulus, 1, 1), sep = "|")
+for (of in c("which were offered", "the answers to their stimuli")) {
+  rows(if (of == "which were offered") d else d[names(d) != "parts"]); ours <- told(choices("t", "trials.csv", "stimulus")); own <- d[d$stimulus == "AC", ]
+  same(paste("A of AC,", of), line(ours, "A, stimulus=AC")$p, exact.p(as.vector(tapply(own$choice == "A", own$participant, function(x) 2 * mean(x) - 1))))
+  if (!setequal(ours$effect, c("A, all", "B, all", "C, all", "A, stimulus=AB", "A, stimulus=AC", "B, stimulus=BC"))) fault("lines are of what was not offered, or are lacking:", ours$effect)
+  if (!any(grepl(paste0("chance is 50 %, of 2 alternatives, ", of, ": A, C"), capture.output(choices("t", "trials.csv"))))) fault("chance is not of what was offered:", of)
+  results <- data.frame(); all <- { capture.output(study("of a test")); results }
+  if (any(grepl("stimulus", all$test)) || sum(all$effect == "condition: c1 - c2") != 3) fault("alternatives are compared where others were offered, or not where they were:", all$test)
+  if (!any(grepl("not comparable: other alternatives", told(pairs.test("t", "trials.csv", "choice=A", "stimulus", by = "ranks"))$note))) fault("shares of other alternatives are compared")
+}
+d <- d[!(d$stimulus == "BC" & d$choice == "C"), names(d) != "parts"]; rows(d) # B alone
+if (!any(grepl("which alternatives were offered is not known", told(choices("t", "trials.csv"))$note))) fault("what was offered is guessed")
+# Sessions of other alternatives: a call that names the factor session compares nothing.
+d <- expand.grid(trial = 1:8, session = c("AB", "BC"), participant = person(6), stringsAsFactors = FALSE); d$task <- "choose"; d$choice <- substring(d$session, i <- sample(1:2, nrow(d), TRUE), i)
+for (parts in c(TRUE, FALSE)) { if (parts) d$parts <- "B|C" else d$parts <- NULL; if (parts) d$parts[d$session == "AB"] <- "A|B"; rows(d)
+  for (a in c("A", "B")) if (!any(grepl("not comparable: other alternatives", told(pairs.test("t", "trials.csv", paste0("choice=", a), "session", by = "ranks"))$note))) fault("sessions of other alternatives are compared") }
 # Unanimous: exact binomials of people, though the other alternative was only there to choose.
 d <- expand.grid(trial = 1:4, stimulus = c("s", "t"), participant = person(8), stringsAsFactors = FALSE)
 d$choice <- "80"; d$parts <- "80|200"; rows(d)
@@ -267,6 +285,10 @@ d$task <- "choose"; d$choice <- sample(c("A", "B"), nrow(d), TRUE); d$correct <-
 ours <- told(choices("t", "trials.csv"))
 if (any(grepl("group=($| )|NA", ours$effect)) || line(ours, "all")$n != 8 || line(ours, "group=g")$n != 3 || !any(grepl("07, 08: group not known", ours$note))) fault("shares of no group")
 if (any(grepl("variance", ours$test))) fault("points are taken as scores")
+# One of several who differs is no effect.
+d <- expand.grid(trial = 1:4, condition = c("c1", "c2"), participant = person(14), stringsAsFactors = FALSE); d$y <- as.numeric(d$participant == "03" & d$condition == "c1" & d$trial < 3); rows(d)
+ours <- told({ pairs.test("t", "trials.csv", "y", "condition", by = "ranks"); friedman("t", "trials.csv", "y", "condition") })
+if (!all(is.na(ours$p)) || !all(is.na(ours$effect_size)) || !all(grepl("of 14 people 1 differs", ours$note))) fault("one person who differs has an effect:", ours$note)
 # A trial that ran out of time is no answer: how often it was is compared, by rows that stay in trials.csv.
 d <- expand.grid(trial = 1:6, participant = person(7), condition = c("c1", "c2"), stringsAsFactors = FALSE)
 d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$stimulus <- ""; d$parts <- ""; d$effort <- round(100 * runif(nrow(d)))
