@@ -228,7 +228,7 @@ namespace {
 constexpr int mostSimulated = 6; // as many as tests need; more change no test's call
 constexpr std::string_view notListed =
     "not listed, as R (Debian: r-base-core) was not there: analysis.R chooses";
-constexpr std::string_view testMark = "- test: ";
+constexpr std::string_view testMark = "- test: ", groupedMark = "- test by group: ";
 
 std::string codeOf(int number) { return std::string("P").append(std::to_string(number)); }
 
@@ -239,12 +239,12 @@ std::string simulatedFile(const Protocol& protocol, int number) {
         if (!session.correct.empty() || session.answers.size() == 2)
             session.repetitions = std::max(session.repetitions, 100);
     Experiment experiment{rehearsal, participant};
-    const SimulatedObserver observer{ObserverSettings{}, rehearsal, participant};
+    const SimulatedObserver observer{{.placeBlur = 0.4}, rehearsal, participant}; // nobody is always right
     std::string text = trialHeader(protocol, participant, PHYSVIB_VERSION);
     while (!experiment.isDone()) {
         TrialRecord record = experiment.take(observer.answer(experiment));
         text += trialRow(protocol, participant, record);
-        if (number > 1 || record.trial.condition > 0 || record.trial.number > 1 ||
+        if (record.trial.condition > 0 || record.trial.number > 1 ||
             protocol.sessions[record.trial.session].answerSeconds <= 0.0)
             continue;
         record.trial.number = 1'000'000; // one more, as how often time runs out is tested, too
@@ -254,12 +254,18 @@ std::string simulatedFile(const Protocol& protocol, int number) {
     return text;
 }
 
-Result<StudyReport> rehearsed(const Protocol& protocol, int participants, const ScriptRunner& script) {
+/// `inGroups`: as of a table of people that names two.
+Result<StudyReport> rehearsed(const Protocol& protocol, int participants, const ScriptRunner& script,
+                              bool inGroups) {
     std::vector<std::pair<std::string, std::string>> files;
-    for (int number = 1; number <= std::min(participants, mostSimulated); ++number)
+    StudyFacts facts;
+    for (int number = 1; number <= std::min(participants, mostSimulated); ++number) {
         files.emplace_back(codeOf(number), simulatedFile(protocol, number));
-    const auto trials = readReportTrials(files, {}, protocol);
+        facts.people.push_back({codeOf(number), {}, {}, {}, {}, number % 2 == 0 ? "one" : "other"});
+    }
+    auto trials = readReportTrials(files, {}, protocol);
     if (!trials) return Failure{trials.error};
+    if (inGroups) takeFacts(trials.value, std::move(facts));
     return studyReport(trials.value, script);
 }
 
@@ -280,7 +286,7 @@ std::string stemOf(std::string test) {
 } // namespace
 
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script) {
-    auto report = rehearsed(protocol, participants, script);
+    auto report = rehearsed(protocol, participants, script, false);
     if (!report) return Failure{report.error};
     if (!report.value.scriptFault.empty()) return Failure{report.value.scriptFault};
     std::vector<std::string> conditions, sessions, tests;
@@ -357,13 +363,21 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
          "variance",
          std::string{"of the pairs of a factor "} +
              (protocol.name.ends_with(thesisSuffix) ? "Bonferroni's" : "Holm's") +
-             "; Holm's of shares against chance, over all lines, of an effect over several scales or "
-             "alternatives, and of all pairs of a factor over more than two alternatives",
+             "; Holm's of shares against chance, over the lines of each session, of an effect over several "
+             "scales or alternatives, and of all pairs of a factor over more than two alternatives",
          "over those tests that can be made: what cannot be tested is named, and counts in none"});
     text += listOf("Tests over participants, as analysis.R runs them in R", tests);
     if (tests.empty())
         text += participants < 2 || report.value.files.contains(testsTable) ? "none\n"
                                                                             : std::string{notListed} + "\n";
+    if (participants >= 4 && report.value.files.contains(testsTable)) { // two of each group
+        auto grouped = rehearsed(protocol, participants, script, true);
+        if (!grouped) return Failure{grouped.error};
+        for (std::string& test : grouped.value.tests) test.insert(0, groupedMark.substr(2));
+        if (const auto& of = grouped.value.tests; !of.empty())
+            text += listOf(
+                "In their place, if people.csv names groups (here two, of two people or more each)", of);
+    }
     return PlannedStudy{std::move(text), std::move(report.value.files[analysisScriptName])};
 }
 
@@ -375,9 +389,12 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     if (!head.contains("plan") || !head.contains("hash") || !head.contains("participants"))
         return Failure{std::string{name} + ":1: expected a plan of `physvib study plan`"};
     std::set<std::string> planned;
+    const auto mark = trials.all.column(trialColumns::group) && plan.find(groupedMark) != plan.npos
+                          ? groupedMark
+                          : testMark;
     while (!rest.empty()) {
         const std::string_view line = takeUntil('\n', rest);
-        if (line.starts_with(testMark)) planned.emplace(line.substr(testMark.size()));
+        if (line.starts_with(mark)) planned.emplace(line.substr(mark.size()));
     }
     const bool isOfThis = head.at("hash") == trials.common("hash");
     std::vector<std::string> sentences{
