@@ -118,8 +118,10 @@ TEST_F(ReportFields, LevelsStandByStimulusAndPartAndAreToldAsAssumed) {
                       table = read("out/levels-by-stimulus.csv");
     EXPECT_TRUE(has(table, "drop,main,pair=wood-wood size=small height=3,AV-FV-DRV,peak_g,4,0.3,")) << table;
     EXPECT_TRUE(has(table, "drop,main,pair=wood-wood size=small height=1,SV,peak_g,4,0.3,"));
-    EXPECT_TRUE(has(whole, "Levels in g are samples as they left (measured), times the full scale that the "
-                           "layout states (study1: 2 g, assumed, as it names no actuator profile)"));
+    EXPECT_TRUE(has(
+        whole,
+        "Levels in g are samples as the program counted them when they left, times the full scale that the "
+        "layout states (study1: 2 g, assumed, as it names no actuator profile)"));
     EXPECT_TRUE(has(whole, "no accelerometer measured them"));
     EXPECT_FALSE(has(whole, "the peak of what was felt"));
 }

@@ -194,8 +194,8 @@ std::vector<Sentence> sentences() {
          of(matched, 3, set("level_db", "0"), true)},
         {"Every trial had the level of its call; nobody measured what was felt.", of(grid, 3),
          of(grid, 3, set("render", ""))},
-        {"Levels in g are samples as they left (measured)", of(grid, 3, set("peak_g", "0.4")),
-         of(grid, 3, set("level_db", "3"))},
+        {"Levels in g are samples as the program counted them when they left",
+         of(grid, 3, set("peak_g", "0.4")), of(grid, 3, set("level_db", "3"))},
         {"exposure was not measured in these trials", of(grid, 3, set("peak_g", "0.4")),
          of(grid, 3, set("a8_m_per_s2", "0.1"))},
         {"level_db: in dB of the condition", of(steps, 3), of(steps, 3, set("level_db", "0"))},
@@ -212,10 +212,8 @@ std::vector<Sentence> sentences() {
         {"not analysed: nobody can be fitted", of(constant, 3, alike, true), of(constant, 3, rising, true)},
         {"a step fits as well, so the answers tell no JND; the mean JND lacks it, which may be the smallest; "
          "the "
-         "threshold that counts is half way between the first and the last such step, ",
+         "threshold that counts is the middle of those that fit as well, between ",
          of(constant, 3, step, true), of(constant, 3, rising, true)},
-        {"threshold that counts is that of the step, ", of(constant, 3, step, true),
-         of(constant, 3, rising, true)},
         {"functions are logistic, with a guess rate of", of(constant, 3, rising, true), of(quest, 3)},
         {"The JND is half of what lies between a quarter and three quarters.", of(constant, 3, rising, true),
          of(quest, 3)},

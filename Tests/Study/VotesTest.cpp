@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace physvib {
 namespace {
@@ -39,6 +40,23 @@ TEST(Votes, ChoicesAreSharedOutByConditionAndFactor) {
     EXPECT_NEAR(small->shares[0].least, proportion(2, 2).least, 1e-12) << "both alike";
 }
 
+TEST(Votes, SharesAreOfTrialsThatOfferedIt) {
+    for (const bool isTold : {true, false}) {
+        std::vector<ChoiceTrial> trials;
+        for (const char* who : {"P1", "P2"})
+            for (const std::string pair : {"AB", "AC", "BC"})
+                for (const char own : pair)
+                    trials.push_back(
+                        {who, pair, std::string{own}, isTold ? pair.substr(1) + "|" + pair[0] : "", pair});
+        const auto summaries = summariseChoices(trials);
+        EXPECT_EQ(alternativesOffered(summaries), 2u);
+        EXPECT_TRUE(summaries[0].of("A")->trials == 8 && summaries[0].of("A")->share == 0.5);
+        EXPECT_EQ(summaries.back().of("A"), nullptr) << "BC";
+        trials.push_back({"P1", "BC", "C", isTold ? "A|B|C" : "", "BC"});
+        EXPECT_EQ(alternativesOffered(summariseChoices(trials)), isTold ? 0u : 2u);
+    }
+}
+
 // One person's many trials must not outvote the others, nor be taken for as many people.
 TEST(Votes, ThirteenForAndSevenAgainstIsNoDecision) {
     std::vector<ChoiceTrial> trials;
@@ -53,6 +71,19 @@ TEST(Votes, ThirteenForAndSevenAgainstIsNoDecision) {
     trials.resize(100);
     const auto one = summariseChoices(trials).front();
     EXPECT_NEAR(one.shares[0].least, proportion(one.shares[0].hits, 100).least, 1e-12);
+}
+
+TEST(Votes, WhoLacksACellIsInNoMeanOfAFactor) {
+    std::vector<RatingTrial> trials;
+    for (const std::string who : {"P1", "P2", "P3"})
+        for (const char* cell : {"f=1 l=1", "f=1 l=2", "f=2 l=1", "f=2 l=2"})
+            if (who != "P3" || cell[2] == '1') trials.push_back({who, cell, {who == "P3" ? 90.0 : 10.0}});
+    EXPECT_EQ(peopleLackingCells(trials, 0), std::set<std::string>{"P3"});
+    const auto summaries = summariseRatings(trials);
+    const auto first = std::ranges::find(summaries, "f=1", &RatingSummary::condition);
+    ASSERT_NE(first, summaries.end());
+    EXPECT_TRUE(first->means[0] == 10.0 && first->raters[0] == 2);
+    EXPECT_NEAR(summaries.front().means[0], 110.0 / 3.0, 1e-9) << "a condition has all";
 }
 
 TEST(Votes, RatingsAlsoShowTheLevelsOfFactors) {
@@ -128,7 +159,8 @@ TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
     EXPECT_EQ(summaries[0].leftOut.at(0),
               "participant P2 left out: a staircase has fewer than two reversals");
     EXPECT_EQ(summaries[0].leftOut.at(1), "participant P3 left out: a staircase had half or more of its "
-                                          "trials, or of the reversals that count, at an end of its levels");
+                                          "trials, or of the reversals that count, at an end of its levels: "
+                                          "it is below what could be measured");
     EXPECT_EQ(summaries[0].leftOut.at(2), "participant P4 left out: staircase 2 of main has fewer than two "
                                           "reversals; a threshold is the mean of 2 staircases");
 }

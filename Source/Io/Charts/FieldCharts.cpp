@@ -53,8 +53,17 @@ struct GridDrawing {
                      y = corner.y + 0.5 * cellHeight() + (hasInterval ? -2.0 : 4.0);
         svg.text({x, y}, words, {smallSize, Anchor::middle, 0.0, false, colour});
         if (hasInterval)
-            svg.text({x, y + 12.0}, "\u00b1" + fixedNumber(chart.halfIntervals[index], chart.decimals),
-                     {9.0, Anchor::middle, 0.0, false, colour});
+            svg.text({x, y + 12.0}, intervalOf(index), {9.0, Anchor::middle, 0.0, false, colour});
+    }
+    /// Cut where shares end.
+    std::string intervalOf(std::size_t index) const {
+        const double value = *chart.values[index], half = chart.halfIntervals[index];
+        const auto words = [&](double end) {
+            return fixedNumber(std::clamp(end, 0.0, chart.most), chart.decimals);
+        };
+        return value - half < 0.0 || value + half > chart.most
+                   ? words(value - half) + "\u2013" + words(value + half)
+                   : "\u00b1" + fixedNumber(half, chart.decimals);
     }
     /// Draws every label that fits.
     void labels() const {

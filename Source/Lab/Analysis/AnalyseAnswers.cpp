@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Analyses of choices, ratings and levels, and of functions fitted to them, as text and tables.
 #include "Io/Text/CleanText.h"
+#include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
@@ -88,10 +89,10 @@ void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
         tell(out, summary);
         for (const auto& share : summary.shares)
             table.row(summary.condition, share.alternative, std::size_t{share.hits},
-                      std::size_t{summary.trials}, 100.0 * share.share,
+                      std::size_t{share.trials}, 100.0 * share.share,
                       share.hasInterval() ? std::optional{100.0 * share.least} : std::nullopt,
                       share.hasInterval() ? std::optional{100.0 * share.most} : std::nullopt,
-                      summary.participants, 100.0 * share.median);
+                      share.participants, 100.0 * share.median);
     }
     out << "(... to ...): 95 % interval over "
         << (summaries.front().participants > 1 ? "participants" + intervalNotes(summaries) + "\n"
@@ -152,9 +153,13 @@ void analyseRatings(const RatingData& data, const Findings& to) {
     for (const auto& session : data.conditions)
         for (const RatingTrial& trial : session.trials)
             conditions.insert(inSession(trial.condition, session.name));
+    std::set<std::string> without;
+    for (const auto& session : data.conditions)
+        for (std::size_t s = 0; s < scales.size(); ++s) without.merge(peopleLackingCells(session.trials, s));
     if (summaries.size() > conditions.size())
         out << "of a factor's level a participant has the mean of their means of the conditions whose names "
-               "have it that they had\n";
+               "have it"
+            << (without.empty() ? "" : ", without who lacks one: " + joined(without, ", ")) << '\n';
     report.picture = [scales, summaries, isSimulated = data.isSimulated] {
         return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, summaries);
     };
@@ -264,10 +269,9 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
     bool isFitted = false;
     const FitWords words = fitWords(o.columns, o.level, o.measure);
     const auto stepWords = [](const std::pair<double, double>& steps) {
-        const std::string first = fixedNumber(steps.first, decimalsOf(steps.first)),
-                          last = fixedNumber(steps.second, decimalsOf(steps.first));
-        return first == last ? "that of the step, " + first
-                             : "half way between the first and the last such step, " + first + " and " + last;
+        const int decimals = decimalsOf(steps.first);
+        return "the middle of those that fit as well, between " + fixedNumber(steps.first, decimals) +
+               " and " + fixedNumber(steps.second, decimals);
     };
     for (const auto& condition : data.conditions) {
         std::vector<double> thresholds, jnds;

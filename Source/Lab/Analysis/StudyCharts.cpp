@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace physvib {
 namespace {
@@ -25,6 +26,8 @@ std::vector<std::string> numbersTo(std::size_t most) {
     for (std::size_t i = 1; i <= most; ++i) numbers.push_back(std::to_string(i));
     return numbers;
 }
+
+constexpr const char* conditionOrLevel = "condition, stimulus or level of a factor";
 
 } // namespace
 
@@ -84,27 +87,33 @@ std::string mergedChart(ChartFrame frame, const ConditionResolution& one) {
 }
 
 std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries, bool ofMedians) {
-    BarChart chart{std::move(frame), "condition", "chosen (%)", {}, {}};
-    for (const auto& share : summaries.front().shares) chart.series.push_back({share.alternative, {}});
+    BarChart chart{std::move(frame), conditionOrLevel, "chosen (%)", {}, {}};
+    std::set<std::string> alternatives;
+    for (const ChoiceSummary& summary : summaries)
+        for (const ChoiceShare& share : summary.shares) alternatives.insert(share.alternative);
+    for (const std::string& alternative : alternatives) chart.series.push_back({alternative, {}});
     for (const ChoiceSummary& summary : summaries) {
         chart.groups.push_back(summary.condition);
-        for (std::size_t s = 0; s < chart.series.size(); ++s) {
-            const ChoiceShare& share = summary.shares[s];
-            const RankInterval by = ofMedians             ? share.ofMedian
-                                    : share.hasInterval() ? RankInterval{share.least, share.most}
-                                                          : RankInterval{share.share, share.share};
-            chart.series[s].bars.push_back(ChartValue{100.0 * (ofMedians ? share.median : share.share),
-                                                      100.0 * by.least, 100.0 * by.most});
+        for (BarSeries& series : chart.series) {
+            const ChoiceShare* const share = summary.of(series.name);
+            auto& bar = series.bars.emplace_back();
+            if (share == nullptr) continue; // not offered
+            const RankInterval by = ofMedians              ? share->ofMedian
+                                    : share->hasInterval() ? RankInterval{share->least, share->most}
+                                                           : RankInterval{share->share, share->share};
+            bar = ChartValue{100.0 * (ofMedians ? share->median : share->share), 100.0 * by.least,
+                             100.0 * by.most};
         }
     }
     chart.most = 100.0;
-    chart.reference = {100.0 / static_cast<double>(chart.series.size()), "chance"};
+    if (const auto offered = alternativesOffered(summaries); offered > 0)
+        chart.reference = {100.0 / static_cast<double>(offered), "chance"};
     return barChart(chart);
 }
 
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
                         const std::vector<RatingSummary>& summaries, int points) {
-    BarChart chart{std::move(frame), "condition", "mean score", {}, {}};
+    BarChart chart{std::move(frame), conditionOrLevel, "mean score", {}, {}};
     for (const std::string& scale : scales) chart.series.push_back({scale, {}});
     for (const RatingSummary& summary : summaries) {
         chart.groups.push_back(summary.condition);

@@ -223,7 +223,8 @@ std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
         conditionNamed(rows, data, rows.sessionOf(row))
             .push_back({StudyRows::textIf(row, participant),
                         kindOf(row, stimulus, StudyRows::textIf(row, condition)), rows.text(row, choice),
-                        StudyRows::textIf(row, parts)});
+                        StudyRows::textIf(row, parts),
+                        isOwn ? std::string{} : StudyRows::textIf(row, stimulus)});
     });
     return taken;
 }

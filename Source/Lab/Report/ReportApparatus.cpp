@@ -136,8 +136,9 @@ std::string meaningOf(std::string_view column, const Moved& all) {
 
 /// How the columns in g come about.
 std::string chainOf(const ReportTrials& trials) {
-    if (trials.protocol) return levelChain(*trials.protocol, "as they left (measured)");
-    return "Levels in g are samples as they left (measured), times a full scale that is assumed, as the "
+    if (trials.protocol) return levelChain(*trials.protocol, "as the program counted them when they left");
+    return "Levels in g are samples as the program counted them when they left, times a full scale that is "
+           "assumed, as the "
            "layouts are not known here: no accelerometer measured them.";
 }
 

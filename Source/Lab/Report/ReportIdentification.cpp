@@ -162,11 +162,14 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     std::erase(charts, std::string{});
     if (charts.empty()) return;
     report.page.figure(
-        charts, isGrid(data)
-                    ? "Percent correct by place" + words + report.asThesis("Fig. 4.4") + report.intervals() +
-                          (hasPeople ? " where there is room." : ".")
-                    : "Confusions: rows are stimuli, columns responses, darker is a larger share of the "
-                      "stimulus' trials. Where labels have no room every second, third ... is shown.");
+        charts,
+        isGrid(data)
+            ? "Percent correct by place" + words + report.asThesis("Fig. 4.4") + report.intervals() +
+                  (hasPeople
+                       ? " where there is room, cut at 0 and 100 %, and none where all have the same share."
+                       : ".")
+            : "Confusions: rows are stimuli, columns responses, darker is a larger share of the "
+              "stimulus' trials. Where labels have no room every second, third ... is shown.");
 }
 
 } // namespace

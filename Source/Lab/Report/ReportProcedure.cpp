@@ -246,6 +246,14 @@ void tellParticipants(ReportBuilder& report) {
     std::vector<std::string> exclusions;
     std::size_t rows = report.trials.leftOut.rows;
     for (const UnfinishedRun& run : unfinishedRuns(report.trials)) exclusions.push_back(run.words());
+    if (report.trials.protocol && hasAdaptiveRows(report.trials)) {
+        AnalysisJob levels = report.options();
+        levels.protocol = report.trials.protocol;
+        if (const auto data = readFinishedLevels(levels))
+            for (const LevelSummary& one : summariseLevels(data.value.conditions.front().trials))
+                for (const std::string& words : one.leftOut)
+                    exclusions.push_back(one.condition + ": " + words + "; of means and tests");
+    }
     // Without a protocol only others tell how many trials there were; adaptive sessions have no fixed number.
     const bool canCompare = !report.trials.protocol && !hasAdaptiveRows(report.trials);
     for (const auto& [code, own] : people) {
@@ -256,7 +264,8 @@ void tellParticipants(ReportBuilder& report) {
         }
         if (canCompare && own.main < most)
             exclusions.push_back("participant " + code + " has " + counted(own.main, "trial") +
-                                 ", others have up to " + std::to_string(most) + ": they count");
+                                 ", others have up to " + std::to_string(most) + ": they " +
+                                 countedButWhereLacking);
         if (own.ranOut > 0)
             exclusions.push_back("participant " + code + ": " + ranOutWords(own.ranOut) +
                                  ": analyses leave them out");

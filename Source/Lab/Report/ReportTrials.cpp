@@ -319,9 +319,7 @@ std::string UnfinishedRun::words() const {
            (isTraining   ? ", a training"
             : isOver     ? ", which bring it to its end, and count"
             : isAdaptive ? ", so this threshold is left out of means and tests"
-            : trials > 0 ? ", which count except in means and tests that need a stimulus or level that is "
-                           "lacking, and name "
-                           "whom they leave out"
+            : trials > 0 ? std::string{", which "} + countedButWhereLacking
                          : "");
 }
 

@@ -107,6 +107,11 @@ struct UnfinishedRun {
     std::string words() const;
 };
 
+/// What becomes of the trials of somebody who has fewer than others.
+inline constexpr const char* countedButWhereLacking =
+    "count except in means and tests that need a stimulus or "
+    "level that is lacking, and name whom they leave out";
+
 /// Of people who are not excluded; none without a protocol. Explorations end when people like. Any thread.
 std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials);
 

@@ -9,6 +9,7 @@
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Study/StudyTasks.h"
 #include "Lab/Study/Summaries.h"
+#include <algorithm>
 #include <array>
 #include <set>
 
@@ -60,6 +61,9 @@ void tellShares(ReportBuilder& report, const SessionOfChoices& session) {
         return hasFactors && conditions.contains(each.condition);
     });
     if (summaries.size() > mostShown) summaries.resize(mostShown);
+    const bool areOfSome = std::ranges::any_of(summaries, [](const ChoiceSummary& one) {
+        return std::ranges::any_of(one.shares, [&](const auto& share) { return share.trials < one.trials; });
+    });
     report.page.figure(
         {sharesChart(report.frame(inSession("Shares of the alternatives", session.name)), summaries,
                      showsMedians(report))},
@@ -68,8 +72,12 @@ void tellShares(ReportBuilder& report, const SessionOfChoices& session) {
                                             std::string{" of the participants' shares"},
                   session.name) +
             report.asThesis(showsMedians(report) ? "Fig. 5.8" : "Fig. 5.8, which has medians") +
-            shareIntervals(report, summaries) + ". Chance: 1 of the " +
-            std::to_string(summaries.front().shares.size()) + " alternatives offered or given.");
+            shareIntervals(report, summaries) + ". " +
+            (alternativesOffered(summaries) > 0
+                 ? "Chance: 1 of the " + std::to_string(alternativesOffered(summaries)) +
+                       " alternatives offered or given"
+                 : std::string{"Trials offered unequal numbers of alternatives, so chance has no line"}) +
+            (areOfSome ? "; a share is of the trials that offered it." : "."));
     if (hasFactors) tellTwoFactors(report, session);
 }
 

@@ -228,7 +228,7 @@ namespace {
 constexpr int mostSimulated = 6; // as many as tests need; more change no test's call
 constexpr std::string_view notListed =
     "not listed, as R (Debian: r-base-core) was not there: analysis.R chooses";
-constexpr std::string_view testMark = "- test: ";
+constexpr std::string_view testMark = "- test: ", groupedMark = "- test by group: ";
 
 std::string codeOf(int number) { return std::string("P").append(std::to_string(number)); }
 
@@ -271,7 +271,7 @@ std::string simulatedFile(const Protocol& protocol, int number) {
         if (!answer.ranOut) answerWithin(experiment, random, answer);
         TrialRecord record = experiment.take(std::move(answer));
         text += trialRow(protocol, participant, record);
-        if (number > 1 || record.trial.condition > 0 || record.trial.number > 1 ||
+        if (record.trial.condition > 0 || record.trial.number > 1 ||
             protocol.sessions[record.trial.session].answerSeconds <= 0.0)
             continue;
         record.trial.number = 1'000'000; // one more, as how often time runs out is tested, too
@@ -281,12 +281,18 @@ std::string simulatedFile(const Protocol& protocol, int number) {
     return text;
 }
 
-Result<StudyReport> rehearsed(const Protocol& protocol, int participants, const ScriptRunner& script) {
+/// `inGroups`: as of a table of people that names two.
+Result<StudyReport> rehearsed(const Protocol& protocol, int participants, const ScriptRunner& script,
+                              bool inGroups) {
     std::vector<std::pair<std::string, std::string>> files;
-    for (int number = 1; number <= std::min(participants, mostSimulated); ++number)
+    StudyFacts facts;
+    for (int number = 1; number <= std::min(participants, mostSimulated); ++number) {
         files.emplace_back(codeOf(number), simulatedFile(protocol, number));
-    const auto trials = readReportTrials(files, {}, protocol);
+        facts.people.push_back({codeOf(number), {}, {}, {}, {}, number % 2 == 0 ? "one" : "other"});
+    }
+    auto trials = readReportTrials(files, {}, protocol);
     if (!trials) return Failure{trials.error};
+    if (inGroups) takeFacts(trials.value, std::move(facts));
     return studyReport(trials.value, script);
 }
 
@@ -307,7 +313,7 @@ std::string stemOf(std::string test) {
 } // namespace
 
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script) {
-    auto report = rehearsed(protocol, participants, script);
+    auto report = rehearsed(protocol, participants, script, false);
     if (!report) return Failure{report.error};
     if (!report.value.scriptFault.empty()) return Failure{report.value.scriptFault};
     std::vector<std::string> conditions, sessions, tests;
@@ -418,6 +424,14 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
     text += listOf("Corrections", corrections);
     text += listOf("Tests over participants, as analysis.R runs them in R", tests);
     if (tests.empty()) text += (isListed ? "none" : std::string{notListed}) + "\n";
+    if (participants >= 4 && report.value.files.contains(testsTable)) { // two of each group
+        auto grouped = rehearsed(protocol, participants, script, true);
+        if (!grouped) return Failure{grouped.error};
+        for (std::string& test : grouped.value.tests) test.insert(0, groupedMark.substr(2));
+        if (const auto& of = grouped.value.tests; !of.empty())
+            text += listOf(
+                "In their place, if people.csv names groups (here two, of two people or more each)", of);
+    }
     return PlannedStudy{std::move(text), std::move(report.value.files[analysisScriptName])};
 }
 
@@ -429,9 +443,12 @@ Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::st
     if (!head.contains("plan") || !head.contains("hash") || !head.contains("participants"))
         return Failure{std::string{name} + ":1: expected a plan of `physvib study plan`"};
     std::set<std::string> planned;
+    const auto mark = trials.all.column(trialColumns::group) && plan.find(groupedMark) != plan.npos
+                          ? groupedMark
+                          : testMark;
     while (!rest.empty()) {
         const std::string_view line = takeUntil('\n', rest);
-        if (line.starts_with(testMark)) planned.emplace(line.substr(testMark.size()));
+        if (line.starts_with(mark)) planned.emplace(line.substr(mark.size()));
     }
     const bool isOfThis = head.at("hash") == trials.common("hash");
     std::vector<std::string> sentences{

@@ -139,25 +139,34 @@ std::string faultOfCounts(std::span<const LevelCount> counts) {
 
 constexpr double sameLikelihood = 0.01; // of its logarithm
 
-/// The first and the last step, at a level or beside it, that is as likely as `f`, if the answers tell no
-/// width; `f` then becomes the one half way between them.
+/// The least and the most threshold that is as likely as that of `f`, with any width, if a step is as likely:
+/// then the answers tell no width, and `f` becomes the likeliest function half way between them.
 std::optional<std::pair<double, double>> becomesStep(std::span<const LevelCount> counts,
                                                      const PsychometricModel& model, PsychometricFunction& f,
                                                      double likeliest) {
-    const double width = 1e-3 * (counts.back().level - counts.front().level);
+    const double range = counts.back().level - counts.front().level;
     std::vector<double> at;
-    for (const LevelCount& c : counts)
-        for (const double lapse : {f.lapse, 0.0})
-            for (const std::uint64_t own : {std::uint64_t{0}, c.hits, c.trials}) {
-                PsychometricFunction step = model.with(c.level, width, lapse);
-                const double share = (static_cast<double>(own) / static_cast<double>(c.trials) - step.guess) /
-                                     (1.0 - step.guess - lapse);
-                step.threshold -= width * whereRisen(model.shape, std::clamp(share, 1e-4, 1.0 - 1e-4));
-                if (logLikelihood(counts, step) > likeliest - sameLikelihood) at.push_back(step.threshold);
-            }
-    if (at.empty()) return {};
+    for (double width = 1e-3 * range; width < range; width *= 1.1) {
+        for (const LevelCount& c : counts)
+            for (const double lapse : {f.lapse, 0.0})
+                for (const std::uint64_t own : {std::uint64_t{0}, c.hits, c.trials}) { // at this level or
+                                                                                       // beside it
+                    PsychometricFunction one = model.with(c.level, width, lapse);
+                    const double share =
+                        (static_cast<double>(own) / static_cast<double>(c.trials) - one.guess) /
+                        (1.0 - one.guess - lapse);
+                    one.threshold -= width * whereRisen(model.shape, std::clamp(share, 1e-4, 1.0 - 1e-4));
+                    if (logLikelihood(counts, one) > likeliest - sameLikelihood) at.push_back(one.threshold);
+                }
+        if (at.empty()) return {}; // no step
+    }
     const auto [least, most] = std::ranges::minmax(at);
-    f = model.with(std::midpoint(least, most), width, f.lapse);
+    const double lapse = f.lapse;
+    f = model.with(std::midpoint(least, most), 1e-3 * range, lapse);
+    for (double width = 1e-3 * range; width < range; width *= 1.1)
+        if (const auto one = model.with(f.threshold, width, lapse);
+            logLikelihood(counts, one) > logLikelihood(counts, f))
+            f = one;
     return std::pair{least, most};
 }
 

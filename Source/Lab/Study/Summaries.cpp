@@ -101,10 +101,10 @@ ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uin
                     const std::vector<double>& shares) {
     const Moments moments{shares};
     const Proportion pooled = proportion(hits, trials);
-    ChoiceShare share{alternative, hits,           moments.mean,        pooled.least,
-                      pooled.most, median(shares), rankInterval(shares)};
+    ChoiceShare share{alternative,  hits,        trials,         shares.size(),       moments.mean,
+                      pooled.least, pooled.most, median(shares), rankInterval(shares)};
     if (shares.size() < 2) return share;
-    if (hits == 0 || hits == trials) { // all alike: Student's t has no width
+    if (share.isAlike()) { // all alike: Student's t has no width
         const Proportion alike = proportion(hits > 0 ? shares.size() : 0, shares.size());
         share.least = alike.least, share.most = alike.most;
         return share;
@@ -115,22 +115,59 @@ ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uin
     return share;
 }
 
-ChoiceSummary summarise(const std::string& condition, const std::vector<const ChoiceTrial*>& trials,
-                        const std::set<std::string>& alternatives) {
-    std::map<std::string, std::map<std::string, std::uint64_t>> votes; // by participant and alternative
-    std::map<std::string, std::uint64_t> totals, trialsOf;
-    for (const auto* trial : trials) {
-        ++votes[trial->participant][trial->choice];
-        ++totals[trial->choice];
-        ++trialsOf[trial->participant];
+using Alternatives = std::set<std::string, std::less<>>;
+
+/// What each trial offered. Parts may be no alternatives: then, and where nothing tells, all that there are.
+std::vector<Alternatives> offeredIn(const std::vector<ChoiceTrial>& trials) {
+    Alternatives all, chosen;
+    std::vector<Alternatives> each;
+    std::map<std::string, Alternatives> answers; // by stimulus
+    bool isTold = true;
+    for (const ChoiceTrial& trial : trials) {
+        Alternatives& own = each.emplace_back();
+        for (std::string_view rest = trial.offered; !rest.empty();) own.emplace(takeUntil('|', rest));
+        isTold &= own.empty() || own.contains(trial.choice);
+        all.insert(own.begin(), own.end()), chosen.insert(trial.choice);
+        answers[trial.stimulus].insert(trial.choice);
     }
-    ChoiceSummary summary{condition, votes.size(), trials.size(), {}};
-    for (const auto& alternative : alternatives) {
+    const bool hasParts = !all.empty();
+    all.insert(chosen.begin(), chosen.end());
+    const std::size_t size = answers.empty() ? 0 : answers.begin()->second.size();
+    const bool arePairs =
+        !hasParts && size > 1 && size < all.size() && // as AB, BC, AC
+        std::ranges::all_of(answers, [&](const auto& one) { return one.second.size() == size; });
+    for (std::size_t i = 0; i < trials.size(); ++i)
+        if (!isTold || each[i].empty()) each[i] = arePairs ? answers[trials[i].stimulus] : all;
+    return each;
+}
+
+using Offered = std::map<const ChoiceTrial*, Alternatives>;
+
+ChoiceSummary summarise(const std::string& condition, const std::vector<const ChoiceTrial*>& trials,
+                        const Offered& offered) {
+    struct Votes {
+        std::uint64_t hits = 0, trials = 0;
+    };
+    std::map<std::string, std::map<std::string, Votes>> votes; // by alternative and participant
+    std::set<std::string> people;
+    std::set<std::size_t> sizes;
+    for (const auto* trial : trials) {
+        people.insert(trial->participant), sizes.insert(offered.at(trial).size());
+        for (const std::string& alternative : offered.at(trial)) {
+            Votes& own = votes[alternative][trial->participant];
+            own.hits += alternative == trial->choice, ++own.trials;
+        }
+    }
+    ChoiceSummary summary{
+        condition, people.size(), trials.size(), {}, sizes.size() == 1 ? *sizes.begin() : 0};
+    for (const auto& [alternative, own] : votes) {
         std::vector<double> shares;
-        for (auto& [participant, own] : votes)
-            shares.push_back(static_cast<double>(own[alternative]) /
-                             static_cast<double>(trialsOf[participant]));
-        summary.shares.push_back(shareOf(alternative, totals[alternative], trials.size(), shares));
+        Votes all;
+        for (const auto& [participant, one] : own) {
+            shares.push_back(static_cast<double>(one.hits) / static_cast<double>(one.trials));
+            all.hits += one.hits, all.trials += one.trials;
+        }
+        summary.shares.push_back(shareOf(alternative, all.hits, all.trials, shares));
     }
     return summary;
 }
@@ -153,9 +190,12 @@ std::vector<double> participantMeans(const Chosen& trials, std::size_t scale) {
 }
 
 /// Of several people, one person's trials tell no interval.
-RatingSummary summarise(const std::string& condition, const Chosen& trials, bool ofSeveral) {
-    RatingSummary summary{condition, trials.size(), 0, {}, {}, {}, {}, {}};
-    for (std::size_t scale = 0; scale < trials.front()->scores.size(); ++scale) {
+RatingSummary summarise(const std::string& condition, const Chosen& all, bool ofSeveral,
+                        const std::vector<std::set<std::string>>& without) {
+    RatingSummary summary{condition, all.size(), 0, {}, {}, {}, {}, {}};
+    for (std::size_t scale = 0; scale < without.size(); ++scale) {
+        Chosen trials = all;
+        std::erase_if(trials, [&](const auto* one) { return without[scale].contains(one->participant); });
         std::vector<double> scores;
         for (const auto* trial : trials)
             if (!std::isnan(trial->scores[scale])) scores.push_back(trial->scores[scale]);
@@ -197,9 +237,9 @@ std::string intervalNotes(const std::vector<ChoiceSummary>& summaries) {
     bool areAlike = false, areEqual = false, isCut = false;
     for (const ChoiceSummary& one : summaries)
         for (const ChoiceShare& share : one.shares) {
-            if (one.participants < 2) continue;
-            const bool isStudents = !one.areAlike(share) && share.hasInterval();
-            areAlike |= one.areAlike(share), areEqual |= !share.hasInterval();
+            if (share.participants < 2) continue;
+            const bool isStudents = !share.isAlike() && share.hasInterval();
+            areAlike |= share.isAlike(), areEqual |= !share.hasInterval();
             isCut |= isStudents && (share.least == 0.0 || share.most == 1.0);
         }
     return std::string{isCut ? ", cut at 0 and 100 %" : ""} +
@@ -209,20 +249,38 @@ std::string intervalNotes(const std::vector<ChoiceSummary>& summaries) {
 
 std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials) {
     std::vector<const ChoiceTrial*> all;
-    std::set<std::string> alternatives;
-    for (const auto& trial : trials) {
-        all.push_back(&trial), alternatives.insert(trial.choice);
-        for (std::string_view rest = trial.offered; !rest.empty();)
-            alternatives.emplace(takeUntil('|', rest));
-    }
+    Offered offered;
+    const auto each = offeredIn(trials);
+    for (const auto& trial : trials) offered[&trial] = each[all.size()], all.push_back(&trial);
     std::vector<ChoiceSummary> summaries;
     if (all.empty()) return summaries;
-    summaries.push_back(summarise("all", all, alternatives));
+    summaries.push_back(summarise("all", all, offered));
     const auto conditions = byCondition(trials);
     if (conditions.size() < 2) return summaries;
     for (const auto& groups : {byFactor(trials, conditions), conditions})
-        for (const auto& [name, own] : groups) summaries.push_back(summarise(name, own, alternatives));
+        for (const auto& [name, own] : groups) summaries.push_back(summarise(name, own, offered));
     return summaries;
+}
+
+std::set<std::string> peopleLackingCells(const std::vector<RatingTrial>& trials, std::size_t scale) {
+    std::map<std::string, std::set<std::string>> cells, groups; // of people
+    std::map<std::string, std::size_t> most;                    // of a group
+    const auto groupOf = [](const RatingTrial& trial) {
+        const std::size_t at = trial.condition.find("group=");
+        return at == std::string::npos ? std::string{} : trial.condition.substr(at);
+    };
+    for (const RatingTrial& trial : trials)
+        if (!std::isnan(trial.scores[scale])) {
+            auto& own = cells[trial.participant];
+            own.insert(trial.condition), groups[trial.participant].insert(groupOf(trial));
+            auto& group = most[groupOf(trial)];
+            group = std::max(group, own.size());
+        }
+    std::set<std::string> lacking;
+    for (const auto& [who, own] : cells)
+        if (std::ranges::any_of(groups[who], [&](const auto& group) { return own.size() < most[group]; }))
+            lacking.insert(who);
+    return 2 * lacking.size() > cells.size() ? std::set<std::string>{} : lacking;
 }
 
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials) {
@@ -230,9 +288,13 @@ std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& tria
     const auto conditions = byCondition(trials);
     const bool ofSeveral = std::ranges::any_of(
         trials, [&](const RatingTrial& one) { return one.participant != trials.front().participant; });
-    for (const auto& [condition, own] : conditions) summaries.push_back(summarise(condition, own, ofSeveral));
+    std::vector<std::set<std::string>> nobody(trials.front().scores.size()), lacking;
+    for (std::size_t scale = 0; scale < nobody.size(); ++scale)
+        lacking.push_back(peopleLackingCells(trials, scale));
+    for (const auto& [condition, own] : conditions)
+        summaries.push_back(summarise(condition, own, ofSeveral, nobody));
     for (const auto& [factor, own] : byFactor(trials, conditions))
-        if (own.size() < trials.size()) summaries.push_back(summarise(factor, own, ofSeveral));
+        if (own.size() < trials.size()) summaries.push_back(summarise(factor, own, ofSeveral, lacking));
     return summaries;
 }
 
@@ -276,8 +338,8 @@ auto labelKey(const std::string& label) {
 
 using Run = std::vector<const LevelTrial*>; // one participant's trials of a session, or of one staircase
 
-/// NaN: of fewer than two reversals; infinite: of half of the later ones, or of all trials, at an end of the
-/// levels, if it is known.
+/// NaN: of fewer than two reversals; infinite, below or above 0: of half of the later ones, or of all trials,
+/// at an end of the levels, if it is known.
 double staircaseThreshold(const Run& run, LevelSummary& summary) {
     std::vector<double> levels;
     for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
@@ -286,13 +348,14 @@ double staircaseThreshold(const Run& run, LevelSummary& summary) {
     if (reversals.size() < 2) return std::numeric_limits<double>::quiet_NaN();
     const std::span later{reversals.begin() + static_cast<std::ptrdiff_t>(reversals.size() / 2),
                           reversals.end()};
-    const auto isEnd = [&range = run.front()->range](double level) {
-        return range && (level <= range->first || level >= range->second);
-    };
+    const auto& range = run.front()->range;
+    const auto isLeast = [&](double level) { return range && level <= range->first; };
+    const auto isEnd = [&](double level) { return range && (isLeast(level) || level >= range->second); };
     const auto atEnd = std::ranges::count_if(later, isEnd), heldAtEnd = std::ranges::count_if(levels, isEnd);
-    return 2 * static_cast<std::size_t>(atEnd) >= later.size() || 2 * heldAtEnd >= std::ssize(levels)
-               ? std::numeric_limits<double>::infinity()
-               : meanOf(reversals, reversals.size() / 2);
+    if (2 * static_cast<std::size_t>(atEnd) < later.size() && 2 * heldAtEnd < std::ssize(levels))
+        return meanOf(reversals, reversals.size() / 2);
+    const double beyond = std::numeric_limits<double>::infinity();
+    return 2 * std::ranges::count_if(levels, isLeast) >= heldAtEnd ? -beyond : beyond;
 }
 
 double questThreshold(const Run& run, LevelSummary& summary) {
@@ -343,6 +406,9 @@ double poolThresholds(const std::map<std::string, Run>& participants, std::vecto
     return deviation;
 }
 
+constexpr const char *below = "it is below what could be measured",
+                     *above = "it is above what could be measured";
+
 /// Why these are no threshold, staircase by staircase; empty: they are one.
 std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
                     const std::vector<double>& each) {
@@ -360,7 +426,8 @@ std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
                                                          key.first.substr(0, slash)) +
                      (std::isnan(own) ? " has fewer than two reversals"
                                       : " had half or more of its trials, or of the reversals that count, at "
-                                        "an end of its levels");
+                                        "an end of its levels: " +
+                                            std::string{own < 0.0 ? below : above});
         }
         if (bad < each.size() && bad > 0)
             words += "; a threshold is the mean of " + std::to_string(each.size()) + " staircases";
@@ -373,7 +440,9 @@ std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
         least = std::max(least, levels.front() + 0.5 * step),
         most = std::min(most, levels.back() - 0.5 * step);
     }
-    return threshold < least || threshold > most ? "its threshold is at an end of the levels of QUEST+" : "";
+    if (threshold >= least && threshold <= most) return {};
+    return std::string{"its threshold is at an end of the levels of QUEST+: "} +
+           (threshold < least ? below : above);
 }
 
 void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>& participants) {

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -101,14 +103,16 @@ std::vector<std::string> factorWords(std::string_view condition);
 /// One forced choice: alternative, condition and participant (which may be empty).
 struct ChoiceTrial {
     std::string participant, condition, choice;
-    std::string offered{}; ///< alternatives, "a|b|c"; empty: not known
+    std::string offered{}; ///< alternatives, "a|b|c"; empty: all that there are, unless stimuli tell them
+    std::string stimulus{};
 };
 
 /// How often an alternative was chosen. The unit is the participant, whose trials give one share.
 struct ChoiceShare {
     std::string alternative;
-    std::uint64_t hits = 0;
-    double share = 0.0;             ///< mean of the participants' shares
+    std::uint64_t hits = 0, trials = 0; ///< trials: that offered it
+    std::size_t participants = 0;       ///< to whom it was offered
+    double share = 0.0;                 ///< mean of the participants' shares
     double least = 0.0, most = 1.0; ///< 95 %: t interval over participants, Wilson's where all are alike; for
                                     ///< one or unknown participants Wilson's over trials
     double median = 0.0;            ///< of the participants' shares
@@ -116,19 +120,31 @@ struct ChoiceShare {
 
     /// False where several have the same share, neither none nor all: it tells no spread. Any thread.
     bool hasInterval() const noexcept { return least < most; }
+    bool isAlike() const noexcept { return hits == 0 || hits == trials; }
 };
 
 struct ChoiceSummary {
     std::string condition; ///< "all": all conditions of a session together
     std::size_t participants = 0;
     std::uint64_t trials = 0;
-    std::vector<ChoiceShare> shares; ///< by name of the alternative
+    std::vector<ChoiceShare> shares; ///< by name of the alternative; of those that were offered
+    std::size_t alternatives = 0;    ///< that each trial offered; 0: not the same number
 
-    bool areAlike(const ChoiceShare& share) const noexcept { return share.hits == 0 || share.hits == trials; }
+    const ChoiceShare* of(std::string_view alternative) const noexcept {
+        const auto found = std::ranges::find(shares, alternative, &ChoiceShare::alternative);
+        return found == shares.end() ? nullptr : &*found;
+    }
 };
 
 /// ", cut at 0 and 100 %", ", Wilson's ...", ", none ...", where Student's t is not the interval. Any thread.
 std::string intervalNotes(const std::vector<ChoiceSummary>& summaries);
+
+/// How many alternatives each trial of all of them offered; 0: not the same number. Any thread.
+inline std::size_t alternativesOffered(const std::vector<ChoiceSummary>& summaries) noexcept {
+    const std::size_t first = summaries.front().alternatives;
+    return std::ranges::all_of(summaries, [=](const auto& one) { return one.alternatives == first; }) ? first
+                                                                                                      : 0;
+}
 
 /// First all trials together. With several conditions, then each factor of names like "pair=wood size=small"
 /// and each condition, sorted by name. Any thread (allocates).
@@ -149,8 +165,13 @@ struct RatingSummary {
                                              ///< participants are unknown; 0 for one value
 };
 
+/// Who lacks a score of a condition that others of their group have; nobody where most do. Any thread
+/// (allocates).
+std::set<std::string> peopleLackingCells(const std::vector<RatingTrial>& trials, std::size_t scale);
+
 /// Each condition by name, then each factor of names like "pair=wood size=small", or each part of methods'
-/// names like AV-FF-DRV. Precondition: every trial has the same number of scores. Any thread (allocates).
+/// names like AV-FF-DRV, without peopleLackingCells(). Precondition: every trial has the same number of
+/// scores. Any thread (allocates).
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials);
 
 // Staircases, adjustments, magnitude estimations and QUEST+: thresholds, levels, magnitudes per condition.

@@ -178,6 +178,8 @@ int check(const StudyOptions& o) {
 int plan(const StudyOptions& o) {
     const auto protocol = protocolNamed(o.protocol);
     if (!protocol) return leave(exitFailed, protocol.error);
+    if (auto fault = studyFault(protocol.value); !fault.empty())
+        return leave(exitFailed, o.protocol + ": " + fault);
     const auto planned = plannedStudy(protocol.value, o.participants, runAnalysisScript);
     if (!planned) return leave(exitFailed, planned.error);
     const auto script = std::filesystem::path{o.planPath}.replace_filename(analysisScriptName);
