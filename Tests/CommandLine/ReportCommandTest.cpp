@@ -103,7 +103,7 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
         EXPECT_TRUE(has(read("likes/participants.csv"), line)) << read("likes/participants.csv");
     for (const char* words :
          {"5 participants in 1 file", "Groups: 1 x, 2 y, 1 not known.", ">1 row with nothing in one of",
-          "participant T has 0 trials, others have up to 4: they count but in means and tests that need a "
+          "participant T has 0 trials, others have up to 4: they count except in means and tests that need a "
           "stimulus or level that is lacking",
           "participant P: 2 trials without an answer", "condition=calm: 8 trials of 4 participants",
           "group=not known: 4 trials of 1 participant"})

@@ -282,7 +282,9 @@ std::vector<Sentence> sentences() {
          of(twice, 3, {}, true)},
         {"Mean percent correct (as thesis Fig. 3.12, 4.3)", of(builtIn("patterns"), 2), of(grid, 3)},
         {"Percent correct by place", of(grid, 3), of(names, 3)},
-        {"intervals over participants where there is room.", of(grid, 3), of(grid, 1)},
+        {"intervals over participants where there is room, cut at 0 and 100 %, and none where all have the "
+         "same share.",
+         of(grid, 3), of(grid, 1)},
         {"Confusions: rows are stimuli, columns responses", of(names, 3), of(grid, 3)},
         {"Where labels have no room every second, third ... is shown.", of(names, 3), of(grid, 3)},
         {", without those who lack a stimulus.", of(grid, 3), of(grid, 2, twoPoints)},
