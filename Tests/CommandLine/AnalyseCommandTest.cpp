@@ -138,8 +138,9 @@ TEST_F(Analyse, ParticipantsTransferForThemselves) {
     const auto outcome = call("analyse confusion c.csv --export m.csv --participants each.csv");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_NE(
-        outcome.out.find("\n  IT of participants: mean 0.50 bit, standard error 0.50 bit, 2 participants\n"
-                         "  stimuli are lacking of P3: left out of means of participants\n"),
+        outcome.out.find(
+            "\n  IT of participants: mean 0.50 bit, standard error 0.50 bit, 2 participants, not corrected\n"
+            "  stimuli are lacking of P3: left out of means of participants\n"),
         std::string::npos)
         << outcome.out;
     EXPECT_NE(outcome.out.find("mean of participants 75.0 (95 % interval over 2 participants"),
@@ -164,8 +165,9 @@ TEST_F(Analyse, BadTrialsAreNamedAndHandled) {
     write("c.csv", "stimulus,response\na,a\nb,x\nb,\na,a\n");
     const auto outcome = call("analyse confusion c.csv");
     EXPECT_EQ(outcome.exitCode, 0);
-    for (const char* words : {"c.csv:4: no response", "not answered equally often: b 1 times",
-                              "responses that are no stimulus count as wrong: x"})
+    for (const char* words :
+         {"c.csv: 1 trial without a response left out", "not answered equally often: b 1 times",
+          "responses that are no stimulus count as wrong: x"})
         EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.out.find("nan"), std::string::npos);
     write("c.csv", "stimulus\na\n");

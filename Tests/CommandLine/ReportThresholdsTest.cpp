@@ -59,11 +59,12 @@ TEST_F(ReportThresholds, AndMatchesArePlannedWhateverTheSimulatedObserverFeels) 
         Protocol protocol =
             loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/" + name + ".json").value;
         for (SessionPlan& session : protocol.sessions)
-            if (session.adjustment) session.adjustment->leastDb = 10.0; // felt as strong at its end
+            if (session.adjustment)
+                session.adjustment->leastDb = session.adjustment->startDb = 10.0; // felt as strong at its end
         writeThree(protocol);
         std::filesystem::remove(folder_ / "analysis.R");
-        const std::string plan = call("study plan study.json --participants 4 --out plan.txt").out;
-        EXPECT_NE(plan.find("- test: pairs by t of " + test), std::string::npos) << plan;
+        const auto plan = call("study plan study.json --participants 4 --out plan.txt");
+        EXPECT_NE(plan.out.find("- test: pairs by t of " + test), std::string::npos) << plan.out << plan.err;
     }
 }
 
