@@ -192,6 +192,7 @@ TEST(Charts, BarsAreAsHighAsTheirValues) {
                                           {},
                                           {},
                                           {},
+                                          0.0,
                                           100.0});
         const std::size_t at = svg.find("height=", svg.find("fill=\"#0072B2\"") - 40) + 8;
         return std::stod(svg.substr(at));
