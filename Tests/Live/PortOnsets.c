@@ -8,6 +8,7 @@
 
 enum { ports = 4, most = 4096, silent = 2400 }; /* frames of silence before an onset: 50 ms */
 
+static jack_client_t* client;
 static jack_port_t* inputs[ports];
 static physvib_int64 times[most];
 static physvib_live heard;
@@ -36,7 +37,7 @@ int door_listen(physvib_live live) {
     jack_latency_range_t range;
     char name[64];
     int j;
-    jack_client_t* client = jack_client_open("onsets", JackNoStartServer, NULL);
+    client = jack_client_open("onsets", JackNoStartServer, NULL);
     if (client == NULL) return 1;
     heard = live, rate = jack_get_sample_rate(client);
     for (j = 0; j < ports; ++j) {
@@ -52,6 +53,9 @@ int door_listen(physvib_live live) {
     device = (int)(range.max * 1e9 / rate);
     return 0;
 }
+
+/* Before the session is closed, whose clock is read. */
+void door_leave(void) { jack_client_close(client); }
 
 /* The k-th onset, with the device's own latency; 0: not yet. */
 physvib_int64 door_onset(int k) { return k < count ? times[k] + device : 0; }

@@ -9,6 +9,7 @@
 #include <time.h>
 
 int door_listen(physvib_live live);
+void door_leave(void);
 physvib_int64 door_onset(int k);
 
 static int failed(void) { return fprintf(stderr, "%s %s\n", physvib_live_error(), physvib_error()), 1; }
@@ -58,5 +59,6 @@ int main(int count, char** words) {
     physvib_live_get_status(live, &status);
     fprintf(stderr, "L %.1f ms, %d played, %d late, %d xruns\n", (double)physvib_live_latency_ns(live) * 1e-6,
             (int)status.played, (int)status.late, status.xruns);
+    door_leave();
     return physvib_live_close(live);
 }

@@ -9,6 +9,7 @@ using PhysVib;
 
 static class Door {
     [DllImport("physvib-port-onsets")] static extern int door_listen(IntPtr live);
+    [DllImport("physvib-port-onsets")] static extern void door_leave();
     [DllImport("physvib-port-onsets")] static extern long door_onset(int k);
 
     static int Main(string[] words) {
@@ -46,6 +47,7 @@ static class Door {
             for (var k = 0; door_onset(k) != 0; ++k) Console.WriteLine("- " + door_onset(k));
             var told = live.Status;
             Console.Error.WriteLine(string.Format(System.Globalization.CultureInfo.InvariantCulture, "L {0:0.0} ms, {1} played, {2} late, {3} xruns", live.LatencyNs * 1e-6, told.Played, told.Late, told.Xruns));
+            door_leave();
         }
         return 0;
     }

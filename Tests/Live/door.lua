@@ -4,6 +4,7 @@ local ffi, physvib = require("ffi"), require("physvib")
 local onsets, seconds, rate = ffi.load(arg[1]), tonumber(arg[2]), tonumber(arg[3])
 ffi.cdef [[
 int door_listen(physvib_live);
+void door_leave(void);
 int64_t door_onset(int);
 typedef struct { long s, ns; } door_time;
 int clock_gettime(int, door_time*);
@@ -45,5 +46,6 @@ while onsets.door_onset(k) ~= 0 do
 end
 local told = live:status()
 io.stderr:write(string.format("L %.1f ms, %d played, %d late, %d xruns\n", live:latency_ns() * 1e-6, tonumber(told.played), tonumber(told.late), told.xruns))
+onsets.door_leave()
 live:close()
 os.exit(0) -- without unloading what listens

@@ -28,4 +28,5 @@ while onset := onsets.door_onset(k):
     k += 1
 status = live.status
 print(f"L {live.latency_ns * 1e-6:.1f} ms, {status.played} played, {status.late} late, {status.xruns} xruns", file=sys.stderr)
+onsets.door_leave()
 live.close()

@@ -281,19 +281,19 @@ std::string simulatedFile(const Protocol& protocol, int number) {
     return text;
 }
 
-/// `inGroups`: as of a table of people that names two.
-Result<StudyReport> rehearsed(const Protocol& protocol, int participants, const ScriptRunner& script,
-                              bool inGroups) {
+Result<ReportTrials> simulatedTrials(const Protocol& protocol, int participants) {
     std::vector<std::pair<std::string, std::string>> files;
-    StudyFacts facts;
-    for (int number = 1; number <= std::min(participants, mostSimulated); ++number) {
+    for (int number = 1; number <= std::min(participants, mostSimulated); ++number)
         files.emplace_back(codeOf(number), simulatedFile(protocol, number));
+    return readReportTrials(files, {}, protocol);
+}
+
+/// As a table of people does that names two groups.
+void takeTwoGroups(ReportTrials& trials, int participants) {
+    StudyFacts facts;
+    for (int number = 1; number <= std::min(participants, mostSimulated); ++number)
         facts.people.push_back({codeOf(number), {}, {}, {}, {}, number % 2 == 0 ? "one" : "other"});
-    }
-    auto trials = readReportTrials(files, {}, protocol);
-    if (!trials) return Failure{trials.error};
-    if (inGroups) takeFacts(trials.value, std::move(facts));
-    return studyReport(trials.value, script);
+    takeFacts(trials, std::move(facts));
 }
 
 std::string listOf(const char* title, const std::vector<std::string>& lines) {
@@ -313,11 +313,12 @@ std::string stemOf(std::string test) {
 } // namespace
 
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script) {
-    auto report = rehearsed(protocol, participants, script, false);
-    if (!report) return Failure{report.error};
-    if (!report.value.scriptFault.empty()) return Failure{report.value.scriptFault};
+    auto trials = simulatedTrials(protocol, participants);
+    if (!trials) return Failure{trials.error};
+    auto report = studyReport(trials.value, script);
+    if (!report.scriptFault.empty()) return Failure{report.scriptFault};
     std::vector<std::string> conditions, sessions, tests;
-    for (const std::string& test : report.value.tests) tests.push_back("test: " + test);
+    for (const std::string& test : report.tests) tests.push_back("test: " + test);
     for (const auto& one : protocol.conditions) conditions.push_back(conditionWords(one));
     for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session, protocol));
     std::string text = provenanceComment({PHYSVIB_VERSION,
@@ -332,7 +333,7 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
     const auto has = [&](auto is) {
         return std::ranges::any_of(protocol.sessions, [&](const auto& s) { return !s.isTraining && is(s); });
     };
-    const bool isListed = participants < 2 || report.value.files.contains(testsTable);
+    const bool isListed = participants < 2 || report.files.contains(testsTable);
     const auto lists = [&](std::string_view words) { // or may have it, where R was not there
         return !isListed || std::ranges::any_of(tests, [=](const std::string& test) {
             return test.find(words) != test.npos;
@@ -357,13 +358,13 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
         measures.emplace_back(staircaseThresholds);
     if (has([](const SessionPlan& s) { return s.quest.has_value(); }) && participants > 1)
         measures.emplace_back(questThresholds);
-    const bool hasFunctions = report.value.files.contains("psychometric-stimuli.csv");
+    const bool hasFunctions = report.files.contains("psychometric-stimuli.csv");
     if (hasFunctions)
         measures.emplace_back(
             "thresholds (of two answers points of subjective equality) and JNDs of each "
             "participant's logistic function, by maximum likelihood: its level half way up, and "
             "half of what lies between a quarter and three quarters; functions are " +
-            report.value.functions);
+            report.functions);
     if (has([](const SessionPlan& s) { return s.adjustment.has_value(); }))
         measures.emplace_back("matched levels: each participant's mean of what they set, in dB");
     if (has([](const SessionPlan& s) { return s.answer() == AnswerKind::number; }))
@@ -424,15 +425,15 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
     text += listOf("Corrections", corrections);
     text += listOf("Tests over participants, as analysis.R runs them in R", tests);
     if (tests.empty()) text += (isListed ? "none" : std::string{notListed}) + "\n";
-    if (participants >= 4 && report.value.files.contains(testsTable)) { // two of each group
-        auto grouped = rehearsed(protocol, participants, script, true);
-        if (!grouped) return Failure{grouped.error};
-        for (std::string& test : grouped.value.tests) test.insert(0, groupedMark.substr(2));
-        if (const auto& of = grouped.value.tests; !of.empty())
+    if (participants >= 4 && report.files.contains(testsTable)) { // two of each group
+        takeTwoGroups(trials.value, participants);
+        auto grouped = studyReport(trials.value, script);
+        for (std::string& test : grouped.tests) test.insert(0, groupedMark.substr(2));
+        if (const auto& of = grouped.tests; !of.empty())
             text += listOf(
                 "In their place, if people.csv names groups (here two, of two people or more each)", of);
     }
-    return PlannedStudy{std::move(text), std::move(report.value.files[analysisScriptName])};
+    return PlannedStudy{std::move(text), std::move(report.files[analysisScriptName])};
 }
 
 Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::string_view name,

@@ -110,6 +110,7 @@ SceneWorld::Body& SceneWorld::add(const BodyDescription& body, const BodyStart& 
     Body& added =
         bodies_.emplace(nextBody_++, Body{&made, nextFixture_, std::move(created), body, body}).first->second;
     nextFixture_ += added.fixtures.size();
+    if (body.type == BodyType::staticBody && body.velocityMetresPerSecond.x != 0.0) belts_.push_back(&added);
     return added;
 }
 
@@ -181,15 +182,14 @@ bool SceneWorld::act(std::int64_t step) {
     destroyRemoved(step);
     const bool live = actOnInputs(step), script = actOnScript(step);
     grips_.move(step + 1);
-    for (const auto& [number, body] : bodies_) runBelt(body);
+    for (const Body* belt : belts_) run(*belt);
     return live || script;
 }
 
 // Box2D's friction drives what touches it, on either side; a contact is there a step before it touches.
-void SceneWorld::runBelt(const Body& body) {
-    const auto speed = static_cast<float>(body.described.velocityMetresPerSecond.x);
-    if (body.described.type != BodyType::staticBody || speed == 0.0F) return;
-    for (b2ContactEdge* edge = body.body->GetContactList(); edge != nullptr; edge = edge->next)
+void SceneWorld::run(const Body& belt) {
+    const auto speed = static_cast<float>(belt.described.velocityMetresPerSecond.x);
+    for (b2ContactEdge* edge = belt.body->GetContactList(); edge != nullptr; edge = edge->next)
         edge->contact->SetTangentSpeed(speed);
 }
 
@@ -198,6 +198,7 @@ void SceneWorld::runBelt(const Body& body) {
 void SceneWorld::destroyRemoved(std::int64_t step) {
     for (; !leaving_.empty() && leaving_.front().step <= step; leaving_.pop_front()) {
         const auto gone = bodies_.find(leaving_.front().body);
+        std::erase(belts_, &gone->second);
         world_.DestroyBody(gone->second.body);
         bodies_.erase(gone);
     }

@@ -328,7 +328,7 @@ private:
     template <class One>
     requires std::is_class_v<One>
     bool act(const One& action);
-    static void runBelt(const Body& body);
+    static void run(const Body& belt);
     void retire(std::size_t number);
     void moveJoints(b2Body& from, b2Body& to);
     void dropJoints(b2Body& body);
@@ -349,6 +349,7 @@ private:
     SceneGrips grips_{world_, clock_};
     std::vector<Material> materials_;    // with the sounds and textures of now
     std::map<std::size_t, Body> bodies_; // by number
+    std::vector<const Body*> belts_;     // of them
     // numbers; below scripted_ stands scriptedCast()
     std::size_t nextBody_ = 0, nextFixture_ = 0, scripted_ = 0;
     std::map<std::string, std::size_t, std::less<>> bodyNames_;
