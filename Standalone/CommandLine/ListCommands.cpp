@@ -56,6 +56,6 @@ Command actuatorsCommand() {
     return listOf("actuators", "list the built-in actuator profiles; what is not known is empty",
                   listActuators);
 }
-Command devicesCommand() { return listOf("devices", "list the audio devices", listDevices); }
+Command devicesCommand() { return listOf("devices", "list the audio devices and serial ports", listDevices); }
 
 } // namespace physvib

@@ -61,7 +61,9 @@ void writeSection(std::ostream& out, const OptionTable& command, const std::stri
                   WrittenRows& written) {
     std::string sentence = command.meaning + '.';
     sentence[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(sentence[0])));
-    out << '\n' << heading << " `" << command.words << "`\n" << sentence << '\n';
+    out << '\n' << heading << " `" << command.words << '`';
+    if (!command.alias.empty()) out << ", `" << command.alias << '`';
+    out << '\n' << sentence << '\n';
     writeOptionTable(out, command, written);
     for (const OptionTable& inner : command.commands) writeSection(out, inner, heading + '#', written);
 }

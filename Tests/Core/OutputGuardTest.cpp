@@ -186,15 +186,17 @@ TEST(OutputGuard, ASlowToneIsWeakerAndKeepsItsShape) {
 }
 
 TEST(OutputGuard, NeitherBlocksNorInstructionSetsMatter) {
-    constexpr int rate = 44100;
-    Samples in = samplesOf(
-        [](double t) { return std::sin(turn * 2.0 * t) + 0.3 * std::sin(turn * 90.0 * t); }, rate, 3.0);
-    in[300] = 9.5f, in[7000] = -30.0f; // count as 8 times full scale
-    const Samples out = guarded(in, rate);
-    EXPECT_NE(in, out);
-    for (const auto set : {InstructionSet::scalar, InstructionSet::sse4, InstructionSet::avx2})
-        for (const int block : {1, 7, 64, 333, 8192})
-            EXPECT_EQ(guarded(in, rate, GuardPlace::rendered, block, set), out) << block << nameOf(set);
+    for (const int rate : {44100, 48000}) { // tiles of 15 and of 16 frames
+        Samples in = samplesOf(
+            [](double t) { return std::sin(turn * 2.0 * t) + 0.3 * std::sin(turn * 90.0 * t); }, rate, 3.0);
+        in[300] = 9.5f, in[7000] = -30.0f; // count as 8 times full scale
+        const Samples out = guarded(in, rate);
+        EXPECT_NE(in, out);
+        for (const auto set : {InstructionSet::scalar, InstructionSet::sse4, InstructionSet::avx2})
+            for (const int block : {1, 7, 64, 333, 8192})
+                EXPECT_EQ(guarded(in, rate, GuardPlace::rendered, block, set), out)
+                    << rate << block << nameOf(set);
+    }
 }
 
 TEST(OutputGuard, OpensAgainAndCountsHowOftenItActed) {

@@ -177,9 +177,9 @@ void LinkedLimiter::rest(std::size_t frames) noexcept {
 void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains,
                                   float ceiling) const noexcept {
     const float* const delayed = line + front() - latencyFrames();
-    for (std::size_t n = 0; n < frames; ++n) {
-        const float y =
-            std::min(std::max(gains != nullptr ? delayed[n] * gains[n] : delayed[n], -ceiling), ceiling);
+    if (gains == nullptr) std::copy_n(delayed, frames, samples); // within its ceiling when it came
+    for (std::size_t n = 0; gains != nullptr && n < frames; ++n) {
+        const float y = std::min(std::max(delayed[n] * gains[n], -ceiling), ceiling);
         samples[n] = std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
     }
     std::copy_n(line + frames, front(), line);

@@ -70,6 +70,10 @@ public:
             return;
         }
         for (int first = 0, count; first < frames; first += count) {
+            if (!isSilent && !acts_ && filled_ == 0 && frames - first >= tile_ * together) {
+                count = passTiles(io, first);
+                continue;
+            }
             count = std::min(frames - first, tile_ - filled_);
             if (!isSilent) pass(io, first, count);
             filled_ += count;
@@ -85,16 +89,36 @@ public:
 private:
     static constexpr double tileSeconds = 1.0 / 3000.0;
     static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
+    static constexpr int together = static_cast<int>(GuardUnits::tiles);
+    using Sums = std::array<std::int32_t, GuardUnits::stride * GuardUnits::tiles>;
 
+    // Frames of whole tiles up to the first that is to be turned down.
+    int passTiles(float* const* io, int first) noexcept {
+        Sums sums;
+        addUp(io, first, tile_, GuardUnits::tiles, sums);
+        int passed = 0;
+        for (std::size_t t = 0; t < GuardUnits::tiles && !acts_; ++t, passed += tile_)
+            endTile(sums.data() + t * GuardUnits::stride);
+        return passed;
+    }
+    void addUp(float* const* io, int first, int frames, std::size_t tiles, Sums& sums) const noexcept {
+        const auto from = static_cast<std::size_t>(first), count = static_cast<std::size_t>(frames);
+        if (addUp_ != nullptr) return addUp_(io, channels_, from, count, tiles, sums.data());
+        for (std::size_t j = 0; j < channels_; ++j)
+            for (std::size_t t = 0; t < tiles; ++t) {
+                const auto at = io[j] == nullptr ? nullptr : io[j] + from + t * count;
+                auto& sum = sums[t * GuardUnits::stride + j] = 0;
+                for (std::size_t k = 0; at != nullptr && k < count; ++k) sum += GuardUnits::of(at[k]);
+            }
+    }
     void pass(float* const* io, int first, int count) noexcept {
         hasSums_ = true;
         for (std::size_t j = 0; acts_ && j < channels_; ++j)
             if (io[j] != nullptr && (law_.from(j) != 1.0f || law_.to(j) != 1.0f))
                 turnDown(j, io[j] + first, count);
-        const auto from = static_cast<std::size_t>(first), to = from + static_cast<std::size_t>(count);
-        if (addUp_ != nullptr) return addUp_(io, channels_, from, to, sums_.data());
-        for (std::size_t j = 0; j < channels_; ++j)
-            for (std::size_t k = from; io[j] != nullptr && k < to; ++k) sums_[j] += GuardUnits::of(io[j][k]);
+        Sums sums;
+        addUp(io, first, count, 1, sums);
+        for (std::size_t j = 0; j < channels_; ++j) sums_[j] += sums[j];
     }
     void turnDown(std::size_t j, float* at, int count) noexcept {
         const float step = (law_.to(j) - law_.from(j)) / static_cast<float>(tile_);
@@ -104,12 +128,15 @@ private:
         }
     }
     void endTile() noexcept {
-        GuardLaw<limits::maxEnchanters>::Row areas;
-        for (std::size_t j = 0; j < channels_; ++j)
-            areas[j] = static_cast<float>(sums_[j]) * perUnit_, sums_[j] = 0;
-        acts_ = law_.take(areas);
+        endTile(sums_.data());
+        sums_.fill(0);
         filled_ = 0;
         hasSums_ = false;
+    }
+    void endTile(const std::int32_t* sums) noexcept {
+        GuardLaw<limits::maxEnchanters>::Row areas;
+        for (std::size_t j = 0; j < channels_; ++j) areas[j] = static_cast<float>(sums[j]) * perUnit_;
+        acts_ = law_.take(areas);
     }
 
     decltype(LimiterKernel::addUp) addUp_ = nullptr; // null: a plain loop

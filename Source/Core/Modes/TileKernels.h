@@ -34,13 +34,17 @@ struct LimiterKernel {
     bool (*take)(const LimiterLines& lines, const std::int32_t* mostBits) = nullptr;
     /// Writes the delayed frames times `gains` (null: 1), within the ceilings, and shifts the lines.
     void (*give)(const LimiterLines& lines, const float* gains, const float* ceilings) = nullptr;
-    /// OutputGuard's: adds io[channel][from, to), in its units, to each channel's sum; null: no output.
-    void (*addUp)(const float* const* io, std::size_t channels, std::size_t from, std::size_t to,
-                  std::int32_t* sums) = nullptr;
+    /// OutputGuard's: sums[t * GuardUnits::stride + channel] of io[channel], in its units, over the t-th of
+    /// `tiles` stretches of so many frames, one after another. `tiles`: 1 or GuardUnits::tiles. Null: no
+    /// output.
+    void (*addUp)(const float* const* io, std::size_t channels, std::size_t from, std::size_t frames,
+                  std::size_t tiles, std::int32_t* sums) = nullptr;
 };
 
 /// A sample in the units that OutputGuard sums: 2^21 is full scale, so 64 frames of 8 times full scale fit.
 struct GuardUnits {
+    static constexpr std::size_t tiles = 4; ///< summed together: at 48 kHz a block of 64 frames
+    static constexpr std::size_t stride = limits::maxEnchanters;
     static constexpr float most = 8.0f, perFullScale = 2097152.0f;
     static std::int32_t of(float x) noexcept {
         return static_cast<std::int32_t>(std::clamp(x, -most, most) * perFullScale);

@@ -85,7 +85,7 @@ inline constexpr std::array strike{
     MessageArgument{"material", Type::word, 0.0, 0.0, "", "of the scene, for its frequency and decay"},
     MessageArgument{"frequency_hz", Type::number, 1.0, limits::maxFrequencyHz, "",
                     "instead of a material; below 5 with a decay of at least 1"},
-    MessageArgument{"decay_per_s", Type::number, 0.0, limits::maxDecayPerSecond, "", "with it; left out: 0"},
+    MessageArgument{"decay_per_s", Type::number, 0.0, limits::maxDecayPerSecond, "", "with it: this or `seconds`"},
     place,
     level,
     MessageArgument{"seconds", Type::number, 0.0, mostSeconds, "0",
