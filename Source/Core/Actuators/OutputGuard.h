@@ -89,6 +89,7 @@ public:
 private:
     static constexpr double tileSeconds = 1.0 / 3000.0;
     static constexpr auto width = static_cast<std::size_t>(limits::maxEnchanters);
+    static_assert(GuardUnits::stride >= width);
     static constexpr int together = static_cast<int>(GuardUnits::tiles);
     using Sums = std::array<std::int32_t, GuardUnits::stride * GuardUnits::tiles>;
 
