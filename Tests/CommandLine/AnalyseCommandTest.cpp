@@ -39,14 +39,17 @@ TEST_F(Analyse, AStaircaseWithoutReversalsHasNoThreshold) {
     std::string cut = read("level-steps-P02.csv"); // the last staircase lacks its end
     for (int line = 0; line < 4; ++line) cut.erase(cut.rfind('\n', cut.size() - 2) + 1);
     write("level-steps-P02.csv", cut);
-    EXPECT_NE(call("analyse levels level-steps-P02.csv").err.find("P02 left out: main in PHONE: not finished"), std::string::npos);
+    EXPECT_NE(
+        call("analyse levels level-steps-P02.csv").err.find("P02 left out: main in PHONE: not finished"),
+        std::string::npos);
 }
 
 TEST_F(Analyse, MagnitudesWithoutAStimulusAreReadByTheirLevels) {
     write("m.csv", "participant,value,level_db\n01,2,0\n02,8,0\n01,3,6\n");
     const auto outcome = call("analyse levels m.csv --export l.csv");
     EXPECT_NE(outcome.err.find("no column stimulus: level_db (dB) stands for it"), std::string::npos);
-    EXPECT_NE(read("l.csv").find("\ngeometric mean magnitude,,0,2,2,4,"), std::string::npos) << read("l.csv");
+    EXPECT_NE(read("l.csv").find("\ngeometric mean magnitude (SD of log10),,0,2,2,4,"), std::string::npos)
+        << read("l.csv");
 }
 
 TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {
@@ -73,7 +76,7 @@ TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {
         << cells;
     const auto places = call("analyse places phantom-places-P01.csv --export places.csv"); // our own rows
     EXPECT_EQ(places.exitCode, 0) << places.err;
-    EXPECT_NE(places.out.find("\nPHONE-LINEAR     distance from the target  175     1             0."),
+    EXPECT_NE(test::squeezed(places.out).find("\nPHONE-LINEAR distance from the target 175 1 0."),
               std::string::npos)
         << places.out;
     std::filesystem::remove(folder_ / "places.csv");
@@ -93,17 +96,17 @@ TEST_F(Analyse, PublishedPercentCountsGiveThePublishedResolutions) {
     const auto outcome = call("analyse percent-counts p.csv --picture p.svg --export merged.csv");
     EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
-    EXPECT_EQ(outcome.out,
-              "condition       resolution  columns                    rows               sum_percent  "
-              "standard_deviation\n"
-              "PHONE-LINEAR    5 x 5       1+2 | 3 | 4 | 5 | 6+7      1 | 2 | 3 | 4 | 5  99.96        1.321\n"
-              "RING-LOGARITHM  7 x 4       1 | 2 | 3 | 4 | 5 | 6 | 7  1 | 2+3 | 4 | 5    100          1.11\n"
-              "RING-LOGARITHM  7 x 4       1 | 2 | 3 | 4 | 5 | 6 | 7  1+2 | 3 | 4 | 5    100          1.11\n");
+    EXPECT_EQ(test::squeezed(outcome.out),
+              "condition resolution columns rows sum_percent standard_deviation\n"
+              "PHONE-LINEAR 5 x 5 1+2 | 3 | 4 | 5 | 6+7 1 | 2 | 3 | 4 | 5 99.96 1.318\n"
+              "RING-LOGARITHM 7 x 4 1 | 2 | 3 | 4 | 5 | 6 | 7 1 | 2+3 | 4 | 5 100 1.113\n"
+              "RING-LOGARITHM 7 x 4 1 | 2 | 3 | 4 | 5 | 6 | 7 1+2 | 3 | 4 | 5 100 1.113\n");
     EXPECT_EQ(read("p.svg").rfind("<svg ", 0), 0u);
     EXPECT_NE(read("p.svg").find("<title>PHONE-LINEAR: 5 x 5</title>"), std::string::npos)
         << "the merged grid";
     EXPECT_NE(read("merged.csv").find("\nRING-LOGARITHM,4,7,"), std::string::npos);
-    EXPECT_NE(call("analyse percent-counts p.csv --threshold 1.4286").out.find("PHONE-LINEAR    7 x 3 "),
+    EXPECT_NE(test::squeezed(call("analyse percent-counts p.csv --threshold 1.4286").out)
+                  .find("PHONE-LINEAR 7 x 3 "),
               std::string::npos);
 }
 
@@ -117,11 +120,11 @@ TEST_F(Analyse, ToleranceCountsNeighboursAsTheStimulus) {
     std::string text = "stimulus,response\n";
     for (int i = 0; i < 20; ++i) text += "\"1,1\",\"1,2\"\n\"3,3\",\"3,3\"\n";
     write("g.csv", text);
-    const std::string exact = call("analyse confusion g.csv").out;
-    EXPECT_NE(exact.find("2        40      50              50 "), std::string::npos) << exact;
+    const std::string exact = test::squeezed(call("analyse confusion g.csv").out);
+    EXPECT_NE(exact.find(" 2 40 50 50 "), std::string::npos) << exact;
     const auto outcome = call("analyse confusion g.csv --tolerance 1 --picture g.svg --export g-matrix.csv");
-    EXPECT_NE(outcome.out.find("2        40      50              100 "), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find(" 1        1 "), std::string::npos) << "IT, corrected: " << outcome.out;
+    EXPECT_NE(test::squeezed(outcome.out).find(" 2 40 50 100 1 91.24 100 1 1 1 1\n"), std::string::npos)
+        << "percent correct, IT, also corrected: " << outcome.out;
     EXPECT_EQ(outcome.err, "");
     EXPECT_NE(read("g-matrix.csv").find("\n,,\"1,1\",\"1,1\",20\n"), std::string::npos);
     write("s.csv", identity(3));
@@ -138,14 +141,11 @@ TEST_F(Analyse, ParticipantsTransferForThemselves) {
     EXPECT_NE(outcome.err.find("stimuli are lacking of P3, left out of means of participants"),
               std::string::npos)
         << outcome.err;
-    EXPECT_NE(outcome.out.find("\nPHONE      2        5       50              80               2             75 "),
-              std::string::npos)
+    EXPECT_NE(test::squeezed(outcome.out).find("\nPHONE 2 5 50 80 2 75 "), std::string::npos)
         << "not of whom had the easier stimulus alone: " << outcome.out;
     EXPECT_NE(read("each.csv").find("\nPHONE,P3,1,,0,\n"), std::string::npos) << read("each.csv");
     write("c.csv", "participant,stimulus,response\nP1,a,a\nP1,b,b\nP2,a,a\nP3,b,a\n");
-    EXPECT_NE(
-        call("analyse confusion c.csv").err.find("stimuli are lacking of P2, P3\n"),
-        std::string::npos);
+    EXPECT_NE(call("analyse confusion c.csv").err.find("stimuli are lacking of P2, P3\n"), std::string::npos);
     write(
         "c.csv",
         "participant,condition,stimulus,response\nP1,PHONE,a,a\nP1,PHONE,b,b\nP2,PHONE,a,a\nP2,PHONE,b,a\n");
@@ -195,7 +195,7 @@ TEST_F(Analyse, ResponsesGiveAResolutionAndItsCountsGiveItAgain) {
     const auto outcome =
         call("analyse resolution r.csv --picture r.svg --counts counts.csv --export normals.csv");
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("\nWIDE       3 x 2 "), std::string::npos) << outcome.out;
+    EXPECT_NE(test::squeezed(outcome.out).find("\nWIDE 3 x 2 "), std::string::npos) << outcome.out;
     EXPECT_EQ(call("analyse percent-counts counts.csv").out, outcome.out);
     EXPECT_EQ(files().size(), 4u);
     const std::string picture = read("r.svg");
@@ -228,7 +228,7 @@ TEST_F(Analyse, ChoicesAndRatings) {
           "participant,condition,realism,harmony,liking\nP1,AV-FV-DRV,76,68,71\nP2,AF-FF-DRF,36,42,36\n");
     const auto ratings = call("analyse ratings r.csv --picture r.svg --export r-out.csv");
     ASSERT_EQ(ratings.exitCode, 0) << ratings.err;
-    EXPECT_NE(ratings.out.find("\nAV-FV-DRV  realism  1       1             76    76\n"), std::string::npos)
+    EXPECT_NE(test::squeezed(ratings.out).find("\nAV-FV-DRV realism 1 1 76 76\n"), std::string::npos)
         << ratings.out;
     EXPECT_NE(read("r-out.csv").find("\nAF-FF-DRF,liking,1,1,36,36,,\n"), std::string::npos);
 }

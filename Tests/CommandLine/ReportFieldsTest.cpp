@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every fact of the methods section comes from a field: each is planted into trials and looked for on the page,
-// and is not there without it.
+// Every fact of the methods section comes from a field: each is planted into trials and looked for on the
+// page, and is not there without it.
 #include "Calls.h"
 #include <sstream>
 
@@ -56,7 +56,8 @@ TEST_F(ReportFields, EveryPlantedFieldHasItsSentence) {
     const auto cells = [](std::initializer_list<const char*> all) {
         std::string row;
         for (const std::string one : all)
-            row += (one.find_first_not_of("0123456789.") == one.npos && !one.empty() ? "<td class=\"number\">" : "<td>") +
+            row += (one.find_first_not_of("0123456789.") == one.npos && !one.empty() ? "<td class=\"number\">"
+                                                                                     : "<td>") +
                    one + "</td>";
         return row;
     };
@@ -77,7 +78,8 @@ TEST_F(ReportFields, EveryPlantedFieldHasItsSentence) {
         EXPECT_TRUE(has(whole, sentence)) << sentence << whole.substr(whole.find("<h2>Participants"), 2500);
         EXPECT_FALSE(has(bare, sentence)) << sentence;
     }
-    EXPECT_TRUE(has(bare, cells({"ethics", "not stated", ""})) && has(bare, cells({"consent", "not stated", ""})));
+    EXPECT_TRUE(has(bare, cells({"ethics", "not stated", ""})) &&
+                has(bare, cells({"consent", "not stated", ""})));
     EXPECT_FALSE(has(read("out/trials.csv"), "\nP04,")) << "excluded from every analysis";
     EXPECT_TRUE(has(read("out/participants.csv"), "excluded")) << read("out/participants.csv");
     EXPECT_TRUE(has(read("out/participants.csv"), ",,b\nP03")) << "which analysis.R compares";

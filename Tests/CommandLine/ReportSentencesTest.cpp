@@ -181,10 +181,17 @@ std::vector<Sentence> sentences() {
          of(grid, 3)},
         {"level_db: Level of the trial", of(steps, 3), of(steps, 3, set("level_db", "0"))},
         {"Share of correct answers by level, of all trials. Circles: area by number of trials. Dotted: mean "
-         "threshold of the n participants who have one.",
+         "threshold of the n participants who have one. Threshold of a staircase: mean of the later half of "
+         "its "
+         "reversals.",
          of(steps, 3), of(numbers, 3)},
-        {"Circles: trials of who has a function, area by number. Thin lines: participants' functions, logistic, "
-         "guess rate 50 %, lapse rate up to 10 %. Thick: mean threshold and mean width. Dotted: mean threshold.",
+        {" Threshold by QUEST+: mean of its posterior, widths of all participants together.", of(quest, 3),
+         of(steps, 3)},
+        {"Circles: trials of who has a function, area by number. Thin lines: participants' functions, "
+         "logistic, "
+         "guess rate 50 %, lapse rate up to 10 %. Thick: mean threshold and mean width. Dotted: mean "
+         "threshold. "
+         "JND: half of what lies between 0.25 and 0.75 of the function.",
          of(constant, 3, rising, true), of(constant, 3, alike, true)},
         {"Circles: all trials, area by number.", of(constant, 3, alike, true), of(constant, 3, rising, true)},
         {"not analysed: nobody can be fitted", of(constant, 3, alike, true), of(constant, 3, rising, true)},
@@ -203,7 +210,8 @@ std::vector<Sentence> sentences() {
         {". Dashed: level of 200.", of(matched, 3, {}, true), of(twoReferences, 3, {}, true)},
         {"were set to an end of their range", of(matched, 3, set("value", "-12"), true),
          of(matched, 3, {}, true)},
-        {"Geometric mean magnitudes, each divided by its participant's geometric mean in the condition, and mean "
+        {"Geometric mean magnitudes, each divided by its participant's geometric mean in the condition, and "
+         "mean "
          "power law, n = 3. Both axes are logarithmic.",
          of(numbers, 3), of(steps, 3)},
         {"not analysed: participant P2, condition PHONE, session main, stimulus wood: column stimulus",
@@ -225,7 +233,8 @@ std::vector<Sentence> sentences() {
         {"stimuli are lacking of P1, P2", of(grid, 2, twoPoints), of(grid, 3)},
         {"stimuli have unequal numbers of answers", of(timed, 3, {}, true), of(grid, 3)},
         {"trials per cell, fewer than 5: IT is not corrected", of(names, 3), of(numbers, 3)},
-        {"All responses, by colour and shape of the target, and one standard deviation of each target's normal "
+        {"All responses, by colour and shape of the target, and one standard deviation of each target's "
+         "normal "
          "distribution, n = 3.",
          of(field, 3), of(grid, 3)},
         {"Mean perceived column and row by the intended one, n = 3.", of(field, 3), of(grid, 3)},
@@ -240,10 +249,10 @@ std::vector<Sentence> sentences() {
         {"<h3>Calls of the stimuli", of(grid, 3), of(grid, 3, set("render", ""))},
         {"a staircase has fewer than two reversals</td><td>threshold", of(steps, 3, set("level_db", "0")),
          of(steps, 3)},
-        {"participant P2 left out: a staircase", of(steps, 3, set("level_db", "0", "P2")), of(steps, 3)},
         {"16 trials without a response left out", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
         {" of 8 reversals</td>", of(cut, 3, {}, true), of(interleaved, 3, {}, true)},
-        {"not finished</td><td>threshold", of(interleaved, 3, stopsEarly, true), of(interleaved, 3, {}, true)},
+        {"not finished</td><td>threshold", of(interleaved, 3, stopsEarly, true),
+         of(interleaved, 3, {}, true)},
         {"lacks trials 2, 7 to 8</td><td>tests that need what is lacking", of(grid, 3, holes, true),
          of(grid, 3)},
         {"lacks trials 5 to 6</td>", of(interleaved, 3, lacks, true), of(interleaved, 3, {}, true)},
@@ -256,9 +265,9 @@ std::vector<Sentence> sentences() {
 }
 
 /// Sentences that other tests have with their counter-examples, and words of the rows and of the protocol.
-const char* const toldElsewhere[] = {"without a file of times", "report: physvib",   "trials: physvib",
-                                     "protocol: ",              "seed of all orders: ", "left out: a step ",
-                                     "left out: the share ",    "left out: the f"};
+const char* const toldElsewhere[] = {
+    "without a file of times", "report: physvib",   "trials: physvib",      "protocol: ",
+    "seed of all orders: ",    "left out: a step ", "left out: the share ", "left out: the f"};
 
 bool isKnown(const std::string& sentence, const std::vector<Sentence>& all,
              const std::set<std::string>& plan) {
@@ -274,7 +283,8 @@ bool isKnown(const std::string& sentence, const std::vector<Sentence>& all,
 
 /// What a protocol says of itself (ProtocolWordsTest).
 std::set<std::string> wordsOf(const Protocol& protocol) {
-    std::set<std::string> words{withoutNumbers(protocolWords(protocol)), withoutNumbers(fullScales(protocol))};
+    std::set<std::string> words{withoutNumbers(protocolWords(protocol)),
+                                withoutNumbers(fullScales(protocol))};
     for (const auto& one : protocol.conditions) words.insert(withoutNumbers(conditionWords(one)));
     for (const auto& one : protocol.sessions) words.insert(withoutNumbers(sessionWords(one)));
     return words;

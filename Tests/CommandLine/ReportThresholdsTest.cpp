@@ -44,7 +44,8 @@ TEST_F(ReportThresholds, OfConstantStimuliArePlanned) {
     writeThree(loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/frequency-constant.json").value);
     const std::string plan = call("study plan study.json --participants 4 --out plan.txt").out;
     for (const char* test :
-         {"- threshold and JND of a function: ", "likelihood, logistic, guess rate 50 %, lapse rate up to 10 %\n",
+         {"- threshold and JND of a function: ",
+          "likelihood, logistic, guess rate 50 %, lapse rate up to 10 %\n",
           "analysis of variance of threshold by condition", "pairs by t of JND by condition"})
         EXPECT_NE(plan.find(test), std::string::npos) << plan;
 }
@@ -97,7 +98,8 @@ TEST_F(ReportThresholds, PlansHaveTheirMeasuresAndTheTestsOfTimeThatRanOut) {
                       seconds > 0.0)
                 << plan;
         EXPECT_NE(
-            plan.find("\nMeasures, of each participant\n- threshold of a staircase: mean of the later half of"),
+            plan.find(
+                "\nMeasures, of each participant\n- threshold of a staircase: mean of the later half of"),
             std::string::npos)
             << plan;
     }
@@ -111,9 +113,10 @@ TEST_F(ReportThresholds, PlansHaveTheirMeasuresAndTheTestsOfTimeThatRanOut) {
           {"eight-methods", ""}}) {
         std::filesystem::remove(folder_ / "analysis.R");
         const std::string plan = call("study plan " + name + " --participants 4 --out plan.txt").out;
-        for (const char* one : {"magnitude: geometric", "matched level: mean", "pairs of stimuli: means",
-                                "threshold of"})
-            EXPECT_EQ(plan.find(std::string{"\nMeasures, of each participant\n- "} + one) != plan.npos, one == measure)
+        for (const char* one :
+             {"magnitude: geometric", "matched level: mean", "pairs of stimuli: means", "threshold of"})
+            EXPECT_EQ(plan.find(std::string{"\nMeasures, of each participant\n- "} + one) != plan.npos,
+                      one == measure)
                 << name << plan;
     }
     ASSERT_EQ(call("study run pairs.json --observer simulated --participants 3").exitCode, 0);

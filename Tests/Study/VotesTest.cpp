@@ -92,8 +92,9 @@ TEST(Votes, NamesOfLevelsAreWholeWhereTheyHaveSpaces) {
                                              {"P1", "condition=no noise stimulus=rather hard", "A"},
                                              {"P1", "condition=hum stimulus=f & rather soft", "A"}}))
         if (one.condition.find(" stimulus") == std::string::npos) names += one.condition + "; ";
-    EXPECT_EQ(names, "all; condition=hum; condition=no noise; stimulus=f & rather soft; stimulus=rather hard; "
-                     "stimulus=rather soft = b; ");
+    EXPECT_EQ(names,
+              "all; condition=hum; condition=no noise; stimulus=f & rather soft; stimulus=rather hard; "
+              "stimulus=rather soft = b; ");
 }
 
 TEST(Votes, OneRatingHasNoIntervalAndNoNumberIsMissing) {
@@ -132,8 +133,9 @@ TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
     EXPECT_NEAR(summaries[0].estimate, 4.75, 1e-12);
     using Left = std::pair<std::string, std::string>;
     EXPECT_EQ(summaries[0].leftOut.at(0), Left("P2", "a staircase has fewer than two reversals"));
-    EXPECT_EQ(summaries[0].leftOut.at(1), Left("P3", "a staircase had half or more of its trials, or of the reversals "
-                                                     "that count, at the lower end of its levels"));
+    EXPECT_EQ(summaries[0].leftOut.at(1),
+              Left("P3", "a staircase had half or more of its trials, or of the reversals "
+                         "that count, at the lower end of its levels"));
     EXPECT_EQ(summaries[0].leftOut.at(2), Left("P4", "staircase 2 of main has fewer than two reversals"));
 }
 

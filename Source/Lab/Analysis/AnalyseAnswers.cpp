@@ -26,8 +26,10 @@ void warnOf(AnalysisReport& report, const std::string& condition, const std::str
 
 const char* kindWord(LevelTrial::Kind kind) {
     if (kind == LevelTrial::Kind::staircase) return "threshold by staircase (dB)";
-    if (kind == LevelTrial::Kind::quest) return "threshold by QUEST+ (dB)";
-    return kind == LevelTrial::Kind::adjustment ? "level that was set (dB)" : "geometric mean magnitude";
+    if (kind == LevelTrial::Kind::quest)
+        return "threshold by QUEST+ (dB; interval: t and error of the widths)";
+    return kind == LevelTrial::Kind::adjustment ? "level that was set (dB)"
+                                                : "geometric mean magnitude (SD of log10)";
 }
 
 /// Scores of so many points have an order and no distances: by the protocol, else whole numbers from 1 to 7.
@@ -91,13 +93,12 @@ void analyseRatings(const RatingData& data, const Findings& to) {
     for (const auto& summary : summaries)
         for (std::size_t s = 0; s < scales.size(); ++s) {
             if (std::isnan(summary.means[s])) continue;
-            const auto known = [&](double spread, bool isKnown) {
-                return summary.scored[s] > 1 && isKnown ? std::optional{spread} : std::nullopt;
+            const auto known = [](double spread, bool isKnown) {
+                return spread > 0.0 && isKnown ? std::optional{spread} : std::nullopt;
             };
             table.row(summary.condition, scales[s], summary.scored[s], summary.raters[s], summary.means[s],
                       summary.medians[s], known(summary.deviations[s], true),
-                      known(summary.halfIntervals[s],
-                            summary.halfIntervals[s] > 0.0 && !isOfPoints(job, data, s)));
+                      known(summary.halfIntervals[s], !isOfPoints(job, data, s)));
         }
     report.picture = [scales, summaries, isSimulated = data.isSimulated] {
         return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, summaries);
@@ -109,7 +110,8 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
     const auto summaries = summariseLevels(data.conditions.front().trials);
     ExportTable each{"thresholds", data.isSimulated, "method,condition,participant,threshold"};
     for (const LevelSummary& s : summaries) {
-        for (const auto& [who, why] : s.leftOut) warnOf(report, s.condition, who, " left out: " + why);
+        if (job.made == nullptr) // a report has told them
+            for (const auto& [who, why] : s.leftOut) warnOf(report, s.condition, who, " left out: " + why);
         for (const auto& [participant, threshold] : s.thresholds)
             each.row(s.kind == LevelTrial::Kind::quest ? "quest" : "staircase", s.condition, participant,
                      threshold);
@@ -143,8 +145,8 @@ Result<LevelAnswers> readColumns(const AnalysisJob& o, LevelAnswerColumns column
         o, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
 }
 
-/// A row of a summary: mean, standard deviation and interval over participants. Of what is above 0, no interval
-/// goes below.
+/// A row of a summary: mean, standard deviation and interval over participants. Of what is above 0, no
+/// interval goes below.
 void summarise(ExportTable& summary, const std::string& condition, const std::string& measure,
                const std::vector<double>& values, bool isAboveZero = false) {
     if (values.empty()) return;
@@ -157,7 +159,8 @@ void summarise(ExportTable& summary, const std::string& condition, const std::st
                 known(own.least(), hasInterval), known(own.most(), hasInterval));
 }
 
-constexpr const char* summaryColumns = "condition,measure,participants,mean,standard_deviation,interval_least,interval_most";
+constexpr const char* summaryColumns =
+    "condition,measure,participants,mean,standard_deviation,interval_least,interval_most";
 
 /// Four standard errors below what guessing gives.
 bool isBelowGuess(const LevelCount& at, double guess) {
@@ -216,8 +219,8 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
             else
                 warnOf(report, condition.name, own.participant,
                        ": a step from " + shownCell(plainNumber(own.fit.steps.first)) + " to " +
-                           shownCell(plainNumber(own.fit.steps.second)) +
-                           " fits as well: no JND; " + words.half(o.model) + ": its middle");
+                           shownCell(plainNumber(own.fit.steps.second)) + " fits as well: no JND; " +
+                           words.half(o.model) + ": its middle");
             table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),
                       ifKnown(f.jnd()), f.guess, f.lapse, own.fit.logLikelihood);
         }

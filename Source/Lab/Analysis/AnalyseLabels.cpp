@@ -78,7 +78,10 @@ void summarise(ExportTable& summary, const std::string& condition, const Confusi
                 people.size(), known(!isAlone, moments.mean), known(hasSpread, moments.deviation),
                 known(isAlone || hasSpread, isAlone ? 100.0 * all.least : std::max(0.0, moments.least())),
                 known(isAlone || hasSpread, isAlone ? 100.0 * all.most : std::min(100.0, moments.most())),
-                it.bits, known(it.canBeCorrected(), it.correctedBits()), it.mostBits,
+                isAlone     ? "over trials, Wilson's"
+                : hasSpread ? "t, cut at 0 and 100"
+                            : "",
+                it.bits, known(it.canBeCorrected(), it.correctedBits()), it.mostBits, it.leastBits,
                 known(transferred.n > 1, transferred.mean), known(transferred.n > 1, transferred.deviation));
 }
 
@@ -121,10 +124,12 @@ void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings
     auto& [job, report, out, table] = to;
     ExportTable each{"confusion-participants", data.isSimulated,
                      "condition,participant,trials,percent_correct,it_bits,corrected_it_bits"};
-    ExportTable summary{"confusion", data.isSimulated,
-                        "condition,stimuli,trials,chance_percent,percent_correct,participants,mean_percent,standard_"
-                        "deviation,least_percent,most_percent,it_bits,corrected_it_bits,most_bits,mean_own_"
-                        "bits,deviation_own_bits"};
+    ExportTable summary{
+        "confusion", data.isSimulated,
+        "condition,stimuli,trials,chance_percent,percent_correct,participants,mean_percent,standard_"
+        "deviation,least_percent,most_percent,interval,it_bits,corrected_it_bits,most_bits,fano_bits,mean_"
+        "own_"
+        "bits,deviation_own_bits"};
     std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
     for (const auto& condition : data.conditions) {
         const ConfusionMatrix matrix{condition.trials};

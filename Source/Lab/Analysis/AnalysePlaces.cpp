@@ -27,12 +27,10 @@ void summarise(ExportTable& summary, const std::string& condition, const std::ve
     };
     using P = ParticipantError;
     for (const auto& [name, value, has, isOfY] :
-         {Measure{"distance from the target", &P::distance},
-          Measure{"constant error, x", &P::constantX},
+         {Measure{"distance from the target", &P::distance}, Measure{"constant error, x", &P::constantX},
           Measure{"constant error, y", &P::constantY, nullptr, true},
           Measure{"variable error", &P::variable, &P::hasVariable},
-          Measure{"gain, x", &P::gainX, &P::hasGainX},
-          Measure{"gain, y", &P::gainY, &P::hasGainY, true}}) {
+          Measure{"gain, x", &P::gainX, &P::hasGainX}, Measure{"gain, y", &P::gainY, &P::hasGainY, true}}) {
         std::vector<double> values;
         for (const P& one : people)
             if (has == nullptr || one.*has) values.push_back(one.*value);
@@ -41,8 +39,8 @@ void summarise(ExportTable& summary, const std::string& condition, const std::ve
         const auto known = [&](double number) {
             return own.deviation > 0.0 ? std::optional{number} : std::nullopt;
         };
-        summary.row(condition, name, trials.size(), own.n, own.mean, known(own.deviation),
-                    known(own.least()), known(own.most()));
+        summary.row(condition, name, trials.size(), own.n, own.mean, known(own.deviation), known(own.least()),
+                    known(own.most()));
     }
 }
 

@@ -38,9 +38,9 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
                 readReportTrials({{std::string{file.name}, std::string{file.text}}}, {}, job.protocol);
             if (!data || !trials) continue;
             if (job.made == nullptr && !trials.value.protocol && hasAdaptiveRows(trials.value))
-                data.value.warnings.push_back(std::string{file.name} +
-                                              ": of no built-in protocol: unfinished staircases are not known "
-                                              "(physvib report --protocol)");
+                data.value.warnings.push_back(
+                    std::string{file.name} + ": of no built-in protocol: unfinished staircases are not known "
+                                             "(physvib report --protocol)");
             const auto isOf = [](const LevelTrial& trial, const std::string& session) {
                 return trial.session.substr(0, trial.session.find('/')) == session;
             };

@@ -132,7 +132,7 @@ struct AnalysisReport {
     bool isSimulated = false;                      ///< trials are of a simulated observer
     std::vector<std::string> warnings{};           ///< one line each
     std::string words{};                           ///< text result, in lines
-    std::string summary{}; ///< CSV of what `words` shows; else `table` is shown
+    std::string summary{};                         ///< CSV of what `words` shows; else `table` is shown
     std::function<std::string()> picture{};        ///< SVG, watermarked if simulated; empty: none
     std::string table{}, counts{}, participants{}; ///< CSV
 };

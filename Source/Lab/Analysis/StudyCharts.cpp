@@ -109,10 +109,9 @@ std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales
     for (const RatingSummary& summary : summaries) {
         chart.groups.push_back(summary.condition);
         for (std::size_t s = 0; s < scales.size(); ++s)
-            chart.series[s].bars.push_back(
-                std::isnan(summary.means[s])
-                    ? std::nullopt
-                    : std::optional{ChartValue::around(summary.means[s])});
+            chart.series[s].bars.push_back(std::isnan(summary.means[s])
+                                               ? std::nullopt
+                                               : std::optional{ChartValue::around(summary.means[s])});
         // scores of some points have an axis of their own
         if (std::ranges::any_of(summary.means, [](double mean) { return mean > 11.0; })) chart.most = 100.0;
     }
@@ -126,8 +125,7 @@ std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales
 std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind,
                        const std::optional<std::pair<double, std::string>>& reference) {
     const bool isMagnitude = kind == LevelTrial::Kind::magnitude;
-    BarChart chart{std::move(frame), "condition",
-                   isMagnitude ? "geometric mean" : "level (dB)"};
+    BarChart chart{std::move(frame), "condition", isMagnitude ? "geometric mean" : "level (dB)"};
     chart.reference = reference;
     for (const LevelSummary& s : summaries)
         if (s.kind == kind && !std::isnan(s.estimate))
@@ -201,7 +199,8 @@ FitWords fitWords(std::span<const ColumnName> columns, const std::string& level,
 }
 
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
-                              const PsychometricModel& model, const FitWords& words, const LevelSummary* told) {
+                              const PsychometricModel& model, const FitWords& words,
+                              const LevelSummary* told) {
     const auto fits = psychometricByParticipant(told ? std::vector<LevelAnswer>{} : trials, model);
     std::vector<LevelAnswer> shown = trials; // of those who have a function, if somebody has
     const auto isLeftOut = [](const auto& own) { return !own.fit.fault.empty(); };
@@ -214,7 +213,6 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
     LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
-    const bool isOfMany = byParticipant(trials).size() > 1;
     for (const auto& own : fits) {
         if (isLeftOut(own)) continue;
         thresholds.push_back(own.fit.function.threshold);
@@ -223,10 +221,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         chart.series.push_back(curve(own.fit.function, least, most));
         chart.series.back().isFaint = true;
     }
-    LineSeries answers{shown.size() < trials.size() ? "trials of those with a function"
-                       : isOfMany                   ? "trials of all participants"
-                                                    : "trials",
-                       {}};
+    LineSeries answers{"trials", {}};
     answers.isDrawnThrough = false;
     const auto largest = static_cast<double>(std::ranges::max(counts, {}, &LevelCount::trials).trials);
     for (const LevelCount& count : counts) {
@@ -241,8 +236,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         if (!widths.empty()) {
             LineSeries mean =
                 curve(model.with(meanOf(thresholds), meanOf(widths), meanOf(lapses)), least, most);
-            mean.name = isOfMany ? std::string{"function of the mean "} + words.half(model) + " and width"
-                                 : "function";
+            mean.name = "mean function";
             mean.style = 4;
             chart.series.push_back(std::move(mean));
         }
@@ -269,7 +263,7 @@ std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& tria
         std::size_t i = 0;
         for (const auto& [level, values] : levels) relative[level].push_back(means[i++] - own);
     }
-    LineChart chart{std::move(frame), levelWords, "magnitude / participant's mean in that condition", {}};
+    LineChart chart{std::move(frame), levelWords, "magnitude / participant's geometric mean", {}};
     chart.isLogarithmic = true;
     LineSeries points{"geometric mean of participants", {}};
     points.isDrawnThrough = false;

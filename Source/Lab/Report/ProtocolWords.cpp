@@ -123,7 +123,8 @@ std::string conditionWords(const ConditionPlan& condition) {
 std::string sessionWords(const SessionPlan& session) {
     const bool hasUsual = session.answer() == AnswerKind::scores && session.anchors.empty();
     return session.name + ": " + fieldWords(session) +
-           (hasUsual ? "; anchors " + std::string{usualAnchors[0]} + " | " + std::string{usualAnchors[1]} : "");
+           (hasUsual ? "; anchors " + std::string{usualAnchors[0]} + " | " + std::string{usualAnchors[1]}
+                     : "");
 }
 
 // Looks up layouts and their actuator profiles.

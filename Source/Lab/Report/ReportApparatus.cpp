@@ -50,9 +50,10 @@ void tellApparatus(ReportBuilder& report) {
     }
     if (unknown > 0) report.page.note(counted(unknown, "trial") + " without a record of device and levels");
     if (kinds.empty()) return;
-    ExportTable table{"apparatus", report.isSimulated(),
-                      "device,master_db,noise_db,version,trials,trials_known_to_leave,trials_with_the_limiter,most_"
-                      "limiter_db"};
+    ExportTable table{
+        "apparatus", report.isSimulated(),
+        "device,master_db,noise_db,version,trials,trials_known_to_leave,trials_with_the_limiter,most_"
+        "limiter_db"};
     for (const auto& [kind, felt] : kinds) {
         for (const std::string& word : kind) table.cell(word);
         table.row(felt.trials, felt.known, felt.limited, felt.mostLimitedDb);

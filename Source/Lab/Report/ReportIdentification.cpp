@@ -100,9 +100,9 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     }
     it.ceilingWords = "log2 of the number of stimuli";
     pc.most = 100.0;
-    report.page.figure({barChart(it)},
-                       "Information transfer of all trials together, not corrected" + words + ofPeopleIn(data.conditions) +
-                           ". Dotted: log2 of the number of stimuli.");
+    report.page.figure({barChart(it)}, "Information transfer of all trials together, not corrected" + words +
+                                           ofPeopleIn(data.conditions) +
+                                           ". Dotted: log2 of the number of stimuli.");
     report.page.figure({barChart(pc)}, "Mean percent correct" + words + ofPeople(people) + ".");
     std::vector<std::string> charts;
     for (std::size_t c = 0; c < all.size(); ++c) {
@@ -114,9 +114,10 @@ void tellCriterion(ReportBuilder& report, const Identified& data, int tolerance)
     }
     std::erase(charts, std::string{});
     if (charts.empty()) return;
-    report.page.figure(charts, isGrid(data)
-                                   ? "Mean percent correct by place" + words + ofPeopleIn(data.conditions) + "."
-                                   : "Share of each response, of the trials of a stimulus" + ofPeopleIn(data.conditions) + ".");
+    report.page.figure(charts, isGrid(data) ? "Mean percent correct by place" + words +
+                                                  ofPeopleIn(data.conditions) + "."
+                                            : "Share of each response, of the trials of a stimulus" +
+                                                  ofPeopleIn(data.conditions) + ".");
 }
 
 } // namespace
@@ -157,8 +158,7 @@ std::string perceivedChart(ReportBuilder& report, const Places& places, bool isR
             // so that intervals do not overlap
             const double offset =
                 0.08 * (static_cast<double>(i) - 0.5 * static_cast<double>(places.size() - 1));
-            series.points.push_back(
-                {line + offset, ChartValue::around(Moments(means).mean)});
+            series.points.push_back({line + offset, ChartValue::around(Moments(means).mean)});
         }
         chart.series.push_back(std::move(series));
     }
@@ -204,25 +204,29 @@ void tellPlaces(ReportBuilder& report) {
         counts.push_back(countsChart(report.frame(name), made.counts));
         if (!made.resolution.ties.empty()) grids.push_back(mergedChart(report.frame(name), made));
     }
-    report.page.figure(responses, "All responses, by colour and shape of the target, and one standard deviation of "
-                                  "each target's normal distribution" +
-                                      ofPeopleIn(places) + ".");
+    report.page.figure(responses,
+                       "All responses, by colour and shape of the target, and one standard deviation of "
+                       "each target's normal distribution" +
+                           ofPeopleIn(places) + ".");
     report.page.figure({perceivedChart(report, places, false), perceivedChart(report, places, true)},
                        "Mean perceived column and row by the intended one" + ofPeopleIn(places) + ".");
-    report.page.figure(territories, "Likeliest target of each place. Numbers: row,column at the mean of its responses.");
-    report.page.figure(counts, "Percent counts: share of the field of which each target is the likeliest. Framed: "
-                               "below 1.42 %.");
+    report.page.figure(territories,
+                       "Likeliest target of each place. Numbers: row,column at the mean of its responses.");
+    report.page.figure(counts,
+                       "Percent counts: share of the field of which each target is the likeliest. Framed: "
+                       "below 1.42 %.");
     if (!grids.empty())
         report.page.figure(grids, "Percent counts of the merged grid of the table, columns x rows.");
 }
 
 void tellPlaceErrors(ReportBuilder& report) {
     report.page.heading("Perceived places");
-    report.page.paragraph(std::string{hasEdges(report) ? "Places are shares of the named edges. "
-                                                       : "Places are in the table's units. "} +
-                          "Constant error: mean of answered minus true place. Variable error: standard deviation "
-                          "around a target's own mean, both axes together. Gain: slope of answered over true "
-                          "places. Each participant's mean over targets counts.");
+    report.page.paragraph(
+        std::string{hasEdges(report) ? "Places are shares of the named edges. "
+                                     : "Places are in the table's units. "} +
+        "Constant error: mean of answered minus true place. Variable error: standard deviation "
+        "around a target's own mean, both axes together. Gain: slope of answered over true "
+        "places. Each participant's mean over targets counts.");
     report.analysis("places", report.options(), "places.csv");
 }
 

@@ -49,23 +49,39 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
                          ", n = " + std::to_string(s.thresholds.size())),
             own, model, FitWords{}, &s));
     }
+    const auto isOf = [&](LevelTrial::Kind kind) {
+        return std::ranges::count(summaries, kind, &LevelSummary::kind) > 0;
+    };
     if (!charts.empty())
-        report.page.figure(charts, "Share of correct answers by level, of all trials. Circles: area by number of "
-                                   "trials. Dotted: mean threshold of the n participants who have one.");
+        report.page.figure(
+            charts,
+            std::string{
+                "Share of correct answers by level, of all trials. Circles: area by number of trials. "
+                "Dotted: mean threshold of the n participants who have one."} +
+                (isOf(LevelTrial::Kind::staircase)
+                     ? " Threshold of a staircase: mean of the later half of its reversals."
+                     : "") +
+                (isOf(LevelTrial::Kind::quest)
+                     ? " Threshold by QUEST+: mean of its posterior, widths of all participants together."
+                     : ""));
 }
 
-void tellMagnitudes(ReportBuilder& report) {
+void tellMagnitudes(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
     report.page.subheading("Power law");
     const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"stimulus", "value", true});
     if (!data) return report.tellFault(data.error);
     if (!report.analysis("power-law", report.options(), "power-law.csv").error.empty()) return;
     std::vector<std::string> charts;
+    std::vector<std::size_t> people;
+    for (const LevelSummary& one : summaries)
+        if (one.kind == LevelTrial::Kind::magnitude) people.push_back(one.participants);
     for (const auto& condition : data.value.conditions)
         charts.push_back(powerLawChart(report.frame(condition.name.empty() ? "Magnitudes" : condition.name),
                                        condition.trials, "stimulus"));
-    report.page.figure(charts, "Geometric mean magnitudes, each divided by its participant's geometric mean in "
-                               "the condition, and mean power law" +
-                                   ofPeopleIn(data.value.conditions) + ". Both axes are logarithmic.");
+    report.page.figure(charts,
+                       "Geometric mean magnitudes, each divided by its participant's geometric mean in "
+                       "the condition, and mean power law" +
+                           ofPeople(people) + ". Both axes are logarithmic.");
 }
 
 /// Adjustments at an end of their range.
@@ -81,8 +97,8 @@ void tellEndsOfRanges(ReportBuilder& report) {
             atEnd += db && (*db <= plan.adjustment->leastDb || *db >= plan.adjustment->mostDb);
         }
         if (atEnd > 0)
-            report.page.note(std::to_string(atEnd) + " of " + std::to_string(trials) + " levels of " + plan.name +
-                             " were set to an end of their range");
+            report.page.note(std::to_string(atEnd) + " of " + std::to_string(trials) + " levels of " +
+                             plan.name + " were set to an end of their range");
     }
 }
 
@@ -104,12 +120,14 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
     fit.columns = report.trials.columns; // whose words it uses
     report.page.subheading("Psychometric functions");
     const bool isFitted = report.analysis("psychometric", fit, name).error.empty();
+    if (isFitted) report.page.table(report.tableText(name), name, 200, true);
     const FitWords words = fitWords(report.trials.columns, fit.level, fit.measure);
     const PsychometricModel& model = fit.model;
     report.half = words.half(model);
     report.functions =
         std::string(psychometricShapeNames[static_cast<std::size_t>(model.shape)]) +
-        (model.guess > 0.0 ? ", guess rate " + numberText(std::round(1000.0 * model.guess) / 10.0) + " %" : "") +
+        (model.guess > 0.0 ? ", guess rate " + numberText(std::round(1000.0 * model.guess) / 10.0) + " %"
+                           : "") +
         ", lapse rate up to " + numberText(100.0 * model.mostLapses()) + " %" +
         (model.guess > 0.0 ? "" : " at both ends");
     std::vector<std::string> charts;
@@ -117,13 +135,14 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
         charts.push_back(psychometricChart(
             report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
             condition.trials, model, words));
-    report.page.figure(charts, "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
-                                   ". Circles: " + (isFitted ? "trials of who has a function" : "all trials") +
-                                   ", area by number." +
-                                   (isFitted ? " Thin lines: participants' functions, " + report.functions +
-                                                   ". Thick: mean " + report.half +
-                                                   " and mean width. Dotted: mean " + report.half + "."
-                                             : ""));
+    report.page.figure(
+        charts,
+        "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
+            ". Circles: " + (isFitted ? "trials of who has a function" : "all trials") + ", area by number." +
+            (isFitted ? " Thin lines: participants' functions, " + report.functions + ". Thick: mean " +
+                            report.half + " and mean width. Dotted: mean " + report.half +
+                            ". JND: half of what lies between 0.25 and 0.75 of the function."
+                      : ""));
 }
 
 void tellLevels(ReportBuilder& report) {
@@ -150,8 +169,7 @@ void tellLevels(ReportBuilder& report) {
     const auto words = report.analysis("levels", options, "levels.csv");
     if (!words.error.empty()) return;
     const auto summaries = summariseLevels(trials);
-    if (hasThresholds)
-        report.addTable("thresholds.csv", words.participants);
+    if (hasThresholds) report.addTable("thresholds.csv", words.participants);
     tellEndsOfRanges(report);
     if (std::ranges::count(summaries, LevelTrial::Kind::adjustment, &LevelSummary::kind) > 1) {
         const auto reference = comparedLevel(report.trials);
@@ -164,7 +182,8 @@ void tellLevels(ReportBuilder& report) {
                 (reference ? ". Dashed: level of " + reference->second : std::string{}) + ".");
     }
     tellThresholds(report, report.read(readLevels).value.conditions.front().trials, summaries);
-    if (has(LevelTrial::Kind::magnitude) && report.trials.all.column("stimulus")) tellMagnitudes(report);
+    if (has(LevelTrial::Kind::magnitude) && report.trials.all.column("stimulus"))
+        tellMagnitudes(report, summaries);
 }
 
 } // namespace physvib

@@ -36,6 +36,7 @@ constexpr std::pair<std::string_view, std::string_view> headings[] = {
     {"least_percent", "95 % interval, least (%)"},
     {"most_percent", "95 % interval, most (%)"},
     {"interval", "interval is"},
+    {"estimate", "mean"},
     {"half_interval", "half of the 95 % interval (t)"},
     {"mean_percent", "mean of participants (%)"},
     {"percent_correct", "correct (%)"},
@@ -43,6 +44,7 @@ constexpr std::pair<std::string_view, std::string_view> headings[] = {
     {"it_bits", "IT (bit)"},
     {"corrected_it_bits", "IT less Miller's bias (bit)"},
     {"most_bits", "log2 of stimuli (bit)"},
+    {"fano_bits", "Fano's lower bound (bit)"},
     {"mean_own_bits", "mean of participants' own IT (bit)"},
     {"deviation_own_bits", "its SD (bit)"},
     {"standard_deviation", "SD"},
@@ -53,13 +55,13 @@ constexpr std::pair<std::string_view, std::string_view> headings[] = {
     {"across", "corrected across"},
     {"effect_size", "effect size"},
     {"size", "effect size is"},
-    {"interval_least", "95 % interval, least"},
-    {"interval_most", "95 % interval, most"}};
+    {"interval_least", "95 % interval (t), least"},
+    {"interval_most", "95 % interval (t), most"}};
 
 /// Lets column names break after underscores.
 std::string headHtml(const std::string& column) {
-    const auto* const said =
-        std::ranges::find(headings, std::string_view{column}, &std::pair<std::string_view, std::string_view>::first);
+    const auto* const said = std::ranges::find(headings, std::string_view{column},
+                                               &std::pair<std::string_view, std::string_view>::first);
     std::string out = "<th>";
     for (const char c : markup(said != std::end(headings) ? said->second : column)) {
         out += c;
@@ -79,8 +81,7 @@ ReportPage::ReportPage(std::string title, bool isSimulated, std::string mark)
     : title_{std::move(title)}
     , mark_{std::move(mark)}
     , isSimulated_{isSimulated} {
-    if (isSimulated_ && mark_.empty())
-        mark_ = "SIMULATED: a simulated observer answered, not a person.";
+    if (isSimulated_ && mark_.empty()) mark_ = "SIMULATED: a simulated observer answered, not a person.";
 }
 
 void ReportPage::element(std::string_view tag, std::string_view words) {
@@ -110,10 +111,11 @@ void ReportPage::list(const std::vector<std::string>& items) {
 }
 
 void ReportPage::table(std::string_view csv, std::string_view file, std::size_t mostRows, bool isFolded) {
+    const auto comments = csv.starts_with('#') ? 1 : 0;
+    if (std::ranges::count(csv, '\n') < comments + 2) return paragraph("none");
     const auto read = readCsvTable(csv, file);
     if (!read) return note(read.error);
     const auto& [name, lines, columns, rows] = read.value;
-    if (rows.empty()) return paragraph("none");
     const auto isEmpty = [&](std::size_t c) {
         return std::ranges::all_of(rows, [c](const CsvRow& row) { return row.cells[c].empty(); });
     };
@@ -130,7 +132,8 @@ void ReportPage::table(std::string_view csv, std::string_view file, std::size_t 
     }
     body_ += "</table>\n";
     if (rows.size() > mostRows)
-        paragraph(std::to_string(mostRows) + " of " + std::to_string(rows.size()) + " rows: " + std::string(file));
+        paragraph(std::to_string(mostRows) + " of " + std::to_string(rows.size()) +
+                  " rows: " + std::string(file));
     if (isFolded) body_ += "</details>\n";
 }
 

@@ -140,10 +140,12 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
     }
     for (const auto& [name, all] : counts)
         if (all.size() > 1 || !all.contains(""))
-            for (const auto& [value, number] : all) table.row(name, value.empty() ? "not known" : value, number);
+            for (const auto& [value, number] : all)
+                table.row(name, value.empty() ? "not known" : value, number);
     for (const auto& [name, words] :
          {std::pair{"ethics", facts.ethics}, {"consent", facts.consent}, {"noise at the ear", facts.noise}})
-        if (!report.isSimulated() || !words.empty()) table.row(name, words.empty() ? "not stated" : words, "");
+        if (!report.isSimulated() || !words.empty())
+            table.row(name, words.empty() ? "not stated" : words, "");
     report.page.table(table.text(), "sample");
     for (const PersonFacts& person : facts.people)
         if (std::ranges::find(attended, person.participant, &std::pair<std::string, Attended>::first) ==
@@ -157,8 +159,7 @@ void tellSameNumbers(ReportPage& page, const std::vector<std::pair<std::string, 
     for (const auto& [code, own] : people)
         if (!own.number.empty()) codes[own.number].push_back(code);
     for (const auto& [number, same] : codes)
-        if (same.size() > 1)
-            page.note("participants " + listed(same) + " have the same number, " + number);
+        if (same.size() > 1) page.note("participants " + listed(same) + " have the same number, " + number);
 }
 
 } // namespace
@@ -192,19 +193,22 @@ void tellParticipants(ReportBuilder& report) {
     tellFacts(report, people);
     report.page.table(table.text(), "participants.csv");
     tellSameNumbers(report.page, people);
-    ExportTable left{"left-out", report.isSimulated(), "participant,condition,session,trials,planned,why,left_out"};
+    ExportTable left{"left-out", report.isSimulated(),
+                     "participant,condition,session,trials,planned,why,left_out"};
     std::size_t rows = report.trials.leftOut.rows;
     for (const UnfinishedRun& run : unfinishedRuns(report.trials))
-        left.row(run.participant, run.condition, run.session, run.trials, run.planned, run.why(), run.leftOut());
+        left.row(run.participant, run.condition, run.session, run.trials, run.planned, run.why(),
+                 run.leftOut());
     const bool isAdaptive = hasAdaptiveRows(report.trials);
-    if (report.trials.protocol && isAdaptive)
+    if (isAdaptive)
         if (const auto data = readFinishedLevels(report.options()))
             for (const LevelSummary& one : summariseLevels(data.value.conditions.front().trials))
-                for (const auto& [who, why] : one.leftOut) left.row(who, one.condition, "", "", "", why, "threshold");
+                for (const auto& [who, why] : one.leftOut)
+                    left.row(who, one.condition, "", "", "", why, "threshold");
     // Without a protocol only others tell how many trials there were; adaptive sessions have no fixed number.
     const bool canCompare = !report.trials.protocol && !isAdaptive;
-    const auto of = [&](const std::string& code, std::size_t trials, const auto& planned, const std::string& why,
-                        const char* what) {
+    const auto of = [&](const std::string& code, std::size_t trials, const auto& planned,
+                        const std::string& why, const char* what) {
         if (trials > 0) left.row(code, "", "", trials, planned, why, what);
     };
     for (const auto& [code, own] : people) {
@@ -213,7 +217,8 @@ void tellParticipants(ReportBuilder& report) {
             continue;
         }
         if (canCompare && own.main < most)
-            left.row(code, "", "", own.main, most, "fewer trials than others", "tests that need what is lacking");
+            left.row(code, "", "", own.main, most, "fewer trials than others",
+                     "tests that need what is lacking");
         of(code, own.ranOut, "", "ran out of time", "these trials");
         of(code, own.unanswered, "", "no answer", "these trials");
         rows -= std::min(rows, own.unanswered);
@@ -223,11 +228,13 @@ void tellParticipants(ReportBuilder& report) {
     for (const CsvRow& row : report.trials.notLeft) ++whose[Cells{report.trials.all}(row, "participant")];
     for (const auto& [code, trials] : whose)
         of(code, trials, "", "did not leave as planned (column left, or a peak of 0 g)", "these trials");
-    for (const auto& [code, own] : people)
-        if (!facts.isExcluded(code)) of(code, own.training, "", "training", "these trials");
+    std::size_t training = 0;
+    for (const auto& [code, own] : people) training += facts.isExcluded(code) ? 0 : own.training;
+    of("", training, "", "training", "these trials");
     report.page.subheading("Left out before the analyses");
     if (!report.trials.protocol && isAdaptive)
-        report.page.note("no protocol: unfinished staircases and thresholds at an end of the levels are not known");
+        report.page.note(
+            "no protocol: unfinished staircases and thresholds at an end of the levels are not known");
     report.addTable("left-out.csv", left.text());
     report.page.table(left.text(), "left-out.csv", 200);
 }
@@ -294,8 +301,8 @@ void addTimes(ExportTable& table, const std::string& participant, const std::vec
     }
     const auto minutes = [](double seconds) { return fixedNumber(seconds / 60.0, 1); };
     table.row(participant, moments.front().timeUtc, moments.back().timeUtc,
-              moments.back().event == events::end ? "yes" : "no", sittings, minutes(awaySeconds), cutOff, breaks,
-              minutes(restSeconds), pauses, listedOf(moments, &StudyMoment::language),
+              moments.back().event == events::end ? "yes" : "no", sittings, minutes(awaySeconds), cutOff,
+              breaks, minutes(restSeconds), pauses, listedOf(moments, &StudyMoment::language),
               listedOf(moments, &StudyMoment::outputs), listedOf(moments, &StudyMoment::noiseOutputs));
 }
 
@@ -304,9 +311,10 @@ void addTimes(ExportTable& table, const std::string& participant, const std::vec
 void tellTimes(ReportBuilder& report) {
     ExportTable table{"times", report.isSimulated(),
                       "participant,time_utc,event,trials,language,outputs,noise_outputs"};
-    ExportTable each{"sittings", report.isSimulated(),
-                     "participant,first_entry_utc,last_entry_utc,ended,sittings,min_between_sittings,cut_off,breaks,"
-                     "break_min,pauses,language,outputs,noise_outputs"};
+    ExportTable each{
+        "sittings", report.isSimulated(),
+        "participant,first_entry_utc,last_entry_utc,ended,sittings,min_between_sittings,cut_off,breaks,"
+        "break_min,pauses,language,outputs,noise_outputs"};
     const std::string empty = each.text();
     std::size_t unknown = 0;
     for (const TrialFile& file : report.trials.files) {

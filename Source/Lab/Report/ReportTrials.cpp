@@ -72,8 +72,8 @@ void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) 
     else if (name.empty())
         trials.protocolNote = "the tables name no protocol";
     else
-        trials.protocolNote = "protocol " + cleanLine(name) + " (hash " + cleanLine(hash) +
-                              ") is no built-in one (--protocol)";
+        trials.protocolNote =
+            "protocol " + cleanLine(name) + " (hash " + cleanLine(hash) + ") is no built-in one (--protocol)";
 }
 
 /// True if all rows record their apparatus and none had noise.
@@ -146,8 +146,7 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
     if (std::string note = trials.leftOut.stimuliWords(); !note.empty())
         trials.notes.push_back(std::move(note));
     if (const auto& unused = trials.leftOut.columns; !unused.empty())
-        trials.notes.push_back("columns that --columns does not name: " +
-                               joined(unused, ", "));
+        trials.notes.push_back("columns that --columns does not name: " + joined(unused, ", "));
     if (const auto kinds = analysesFor(trials.all);
         !trials.knowTasks() && !kinds.empty() && kinds.front() != "ratings") {
         std::set<std::string> scales;

@@ -45,9 +45,9 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
         for (const std::size_t raters : one.raters)
             if (raters > 0) people.push_back(raters);
     if (hasRoom(summaries))
-        report.page.figure({scoresChart(report.frame(title), data.scales, summaries,
-                                        all.size() == 1 ? *all.begin() : 0)},
-                           title + ofPeople(people) + ".");
+        report.page.figure(
+            {scoresChart(report.frame(title), data.scales, summaries, all.size() == 1 ? *all.begin() : 0)},
+            title + ofPeople(people) + ".");
 }
 
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.

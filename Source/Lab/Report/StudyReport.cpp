@@ -96,14 +96,19 @@ void tellTests(ReportPage& page, const CsvTable& all) {
                         {"least", "95 % interval, least"},
                         {"most", "95 % interval, most"},
                         {"note", "note"}},
-        ofMeans{{"effect", "level"}, {"statistic", "statistic"}, {"value", "value"}, {"effect_size", "SD"}, {"n", "n"}},
+        ofMeans{{"effect", "level"},
+                {"statistic", "statistic"},
+                {"value", "value"},
+                {"effect_size", "SD"},
+                {"n", "n"}},
         ofNotes{{"test", "of"}, {"effect", "what"}, {"n", "n"}, {"note", "which"}},
         ofNone{{"test", "test"}, {"effect", "effect"}, {"n", "n"}, {"note", "why"}};
     const Cells cell{all};
     const auto show = [&](const Names& names, const auto& isOf) {
         std::string csv;
         const auto add = [&](auto cellOf) {
-            for (std::size_t i = 0; i < names.size(); ++i) csv += i > 0 ? "," : "", appendCell(csv, cellOf(names[i]));
+            for (std::size_t i = 0; i < names.size(); ++i)
+                csv += i > 0 ? "," : "", appendCell(csv, cellOf(names[i]));
             csv += '\n';
         };
         add([](const auto& name) { return name.second; });
@@ -377,7 +382,8 @@ std::set<std::string> correctionsIn(const std::string& table) {
         const std::string test = cell(row, "test").substr(0, cell(row, "test").find(" of "));
         if (const std::string words = name("correction"); !words.empty()) all.insert(test + ": " + words);
         if (const std::string& across = cell(row, "across"); !across.empty())
-            all.insert(test + ": " + name("across") + across.substr(std::min(across.size(), across.find(" over "))));
+            all.insert(test + ": " + name("across") +
+                       across.substr(std::min(across.size(), across.find(" over "))));
     }
     return all;
 }
@@ -390,20 +396,22 @@ std::string measuresOf(const Protocol& protocol, int participants, const StudyRe
     const auto isOf = [&](AnswerKind kind) {
         return has([=](const SessionPlan& s) { return s.answer() == kind && !s.adaptedAlternative(); });
     };
-    const bool hasStaircase = has([](const SessionPlan& s) { return s.staircase.has_value(); }),
-               hasQuest = has([](const SessionPlan& s) { return s.quest.has_value(); }),
+    const bool hasStaircase = has([](const SessionPlan&s) { return s.staircase.has_value(); }),
+               hasQuest = has([](const SessionPlan&s) { return s.quest.has_value(); }),
                hasFunctions = report.files.contains("psychometric-stimuli.csv");
     std::vector<std::string> measures,
-        exclusions{"people with a reason in the table of people",
-                   "trials that did not leave as planned, ran out of time or have no answer", "trainings",
-                   "tests: who lacks a level; factors of which fewer than half of the people have all levels"};
+        exclusions{
+            "people with a reason in the table of people",
+            "trials that did not leave as planned, ran out of time or have no answer", "trainings",
+            "tests: who lacks a level; factors of which fewer than half of the people have all levels"};
     const auto add = [&](bool isThere, std::string measure, const char* exclusion = "") {
         if (!isThere) return;
         measures.push_back(std::move(measure));
         if (*exclusion != '\0') exclusions.emplace_back(exclusion);
     };
     add(hasStaircase,
-        "threshold of a staircase: mean of the later half of the reversals of the level that a trial followed; of "
+        "threshold of a staircase: mean of the later half of the reversals of the level that a trial "
+        "followed; of "
         "several staircases their mean",
         "staircases: unfinished, of fewer than two reversals, or with half or more of the trials or of the "
         "reversals that count at an end of the levels");
@@ -412,17 +420,21 @@ std::string measuresOf(const Protocol& protocol, int participants, const StudyRe
                          : "threshold by QUEST+: posterior mean",
         "QUEST+: unfinished, or within half a step of an end of the levels");
     add(hasFunctions,
-        "threshold and JND of a function: level half way up, and half of what lies between a quarter and three "
+        "threshold and JND of a function: level half way up, and half of what lies between a quarter and "
+        "three "
         "quarters; maximum likelihood, " +
             report.functions,
-        "functions: not rising, a constant fits as well (likelihood ratio, p > 0.05), width of 20 times the range "
+        "functions: not rising, a constant fits as well (likelihood ratio, p > 0.05), width of 20 times the "
+        "range "
         "of the levels, threshold outside it; of a step the JND");
     add(has([](const SessionPlan& s) { return s.adjustment.has_value(); }), "matched level: mean, dB");
     add(isOf(AnswerKind::number), "magnitude: geometric mean; exponent: slope of logarithms, least squares");
     add(has([](const SessionPlan& s) { return s.comparesPairs; }),
-        "pairs of stimuli: means (similarity.csv), classical scaling (mds.csv); distance: score of scales that "
+        "pairs of stimuli: means (similarity.csv), classical scaling (mds.csv); distance: score of scales "
+        "that "
         "begin with dis or diff, else 100 or the number of points less the score");
-    add(isOf(AnswerKind::label), "percent correct; information transfer, from 5 trials per cell on less Miller's bias");
+    add(isOf(AnswerKind::label),
+        "percent correct; information transfer, from 5 trials per cell on less Miller's bias");
     add(isOf(AnswerKind::place), "place: mean of x and of y; variable error: standard deviation around it");
     add(isOf(AnswerKind::choice), "choice: share of an alternative");
     add(isOf(AnswerKind::scores), "scale: mean score");

@@ -59,7 +59,7 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
 
 /// What a plan says that a report compares.
 struct PlanFacts {
-    std::string hash, participants; ///< of the protocol; number
+    std::string hash, participants;          ///< of the protocol; number
     std::vector<std::string> tests, grouped; ///< titles; by group
     bool isListed = true;                    ///< R was there when it was planned
 };

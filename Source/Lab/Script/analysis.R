@@ -267,7 +267,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
       if (by == "t") return(modifyList(out, list(df = t$parameter, size = "d_z", effect = mean(a - b) / sd(a - b), difference = mean(a - b), interval = t$conf.int)))
       share <- if (is.signed) t$statistic / sum(seq_len(sum(different != 0))) else t$statistic / (length(a) * length(b))
       modifyList(out, list(effect = 2 * share - 1, difference = if (is.signed) median(a - b) else even(median(a) - median(b), size) * size,
-                           note = ranks.note(t, if (is.signed) sum(different == 0) else 0, "differences of 0")))
+                           note = paste0(ranks.note(t, if (is.signed) sum(different == 0) else 0, "differences of 0"), if (is.signed) "; difference: median of the differences" else "; difference: of the medians")))
     })
     ps <- sapply(tests, function(one) one$p)
     corrected <- p.adjust(ps, correction); tested <- sum(!is.nan(ps)) # a pair that cannot be tested is no chance of a false finding
@@ -474,7 +474,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   below <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) < 0) else 0
   if (below > 0) { kind <- "scores"; what <- sub("magnitudes", "values", what) }
   zeros <- if (kind == "magnitudes") d[as.numeric(d[[measure]]) == 0, ]
-  if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
+  if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("log10 of", what) }
   lone <- lone.levels(d, columns); d <- lone$d
   design <- design.of(d, columns); design$notes <- c(lone$notes, design$notes)
   for (f in over) if ((k <- length(unique(level(d, f)))) > 1) { design$over <- c(design$over, f); design$notes <- c(design$notes, paste0(f, " (", k, "): averaged over, level by level")) }

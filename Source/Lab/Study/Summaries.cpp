@@ -112,8 +112,8 @@ ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uin
 
 using Alternatives = std::set<std::string, std::less<>>;
 
-/// What each trial offered. Parts may be no alternatives: then all that there are. Of stimuli that none has all
-/// answers of, nor each as many, nothing is known.
+/// What each trial offered. Parts may be no alternatives: then all that there are. Of stimuli that none has
+/// all answers of, nor each as many, nothing is known.
 std::vector<Alternatives> offeredIn(const std::vector<ChoiceTrial>& trials, bool& isKnown) {
     Alternatives all, chosen;
     std::vector<Alternatives> each;
@@ -193,7 +193,7 @@ RatingSummary summarise(const std::string& condition, const Chosen& trials, bool
         summary.participants = std::max(summary.participants, means.size());
         summary.means.push_back(scores.empty() ? std::nan("") : Moments(means).mean);
         summary.medians.push_back(median(means));
-        summary.deviations.push_back(Moments(scores).deviation);
+        summary.deviations.push_back(Moments(ofSeveral ? means : scores).deviation);
         summary.halfIntervals.push_back(Moments(ofSeveral ? means : scores).halfInterval());
     }
     return summary;
@@ -368,9 +368,10 @@ std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
                       : slash == std::string::npos ? "the staircase of " + key.first
                                                    : "staircase " + key.first.substr(slash + 1) + " of " +
                                                          key.first.substr(0, slash)) +
-                     (std::isnan(own) ? " has fewer than two reversals"
-                                      : " had half or more of its trials, or of the reversals that count, at the " +
-                                            std::string{own < 0.0 ? "lower" : "upper"} + " end of its levels");
+                     (std::isnan(own)
+                          ? " has fewer than two reversals"
+                          : " had half or more of its trials, or of the reversals that count, at the " +
+                                std::string{own < 0.0 ? "lower" : "upper"} + " end of its levels");
         }
         return words;
     }
@@ -395,9 +396,8 @@ void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>
         for (const auto& [participant, trials] : participants) {
             auto& thresholds = own.emplace_back();
             for (const auto& [session, run] : runsOf(trials))
-                thresholds.push_back(summary.kind == LevelTrial::Kind::quest
-                                         ? questThreshold(run, summary)
-                                         : staircaseThreshold(run));
+                thresholds.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary)
+                                                                             : staircaseThreshold(run));
             summary.halfInterval /= static_cast<double>(thresholds.size());
         }
     std::vector<double> thresholds;

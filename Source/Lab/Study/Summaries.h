@@ -142,10 +142,11 @@ struct RatingTrial {
 struct RatingSummary {
     std::string condition;
     std::size_t trials = 0, participants = 0;
-    std::vector<std::size_t> scored, raters; ///< per scale: trials with a score, and people
-    std::vector<double> means, medians, deviations; ///< over participants; over trials, 0 for one; NaN: not asked
-    std::vector<double> halfIntervals;       ///< 95 %: t interval over participants' means, or over trials if
-                                             ///< participants are unknown; 0 for one value
+    std::vector<std::size_t> scored, raters;        ///< per scale: trials with a score, and people
+    std::vector<double> means, medians, deviations; ///< over participants; over trials, 0 for one; NaN: not
+                                                    ///< asked
+    std::vector<double> halfIntervals; ///< 95 %: t interval over participants' means, or over trials if
+                                       ///< participants are unknown; 0 for one value
 };
 
 /// Each condition by name. Precondition: every trial has the same number of scores. Any thread (allocates).

@@ -397,7 +397,7 @@ if (!any(grepl("of 05$", own$note)) || !all(line(own, "condition: c1 - c2")$n ==
 d <- expand.grid(trial = 1:2, condition = c("c1", "c2"), participant = person(9), stringsAsFactors = FALSE); d$value <- round(rnorm(36, 3 * (d$condition == "c2") - 2), 2); d$value[5] <- 0; wide <- tapply(d$value, list(d$participant, d$condition), mean)
 ours <- whole(d, character())
 same("values below 0", line(ours, "condition: c1 - c2")$p, t.test(wide[, 1], wide[, 2], paired = TRUE)$p.value)
-if (any(grepl("magnitudes? of 0|logarithm", c(ours$note, ours$test))) || !any(grepl("values below 0: [1-9]", ours$note))) fault("values below 0 are called magnitudes")
+if (any(grepl("magnitudes? of 0|log10", c(ours$note, ours$test))) || !any(grepl("values below 0: [1-9]", ours$note))) fault("values below 0 are called magnitudes")
 # Medians that are the same differ by 0; who is in no model as lme4 is lacking.
 d <- data.frame(participant = person(6), group = rep(c("g", "h", "h"), 2), y = c(0.2, 0.1, 0.5, 0.4, 0, 0.9)); rows(d); ours <- line(told(pairs.test("t", "trials.csv", "y", between = "group", by = "ranks")), "group: g - h")
 if (!identical(abs(ours$difference), 0)) fault("equal medians differ by", ours$difference)
