@@ -42,19 +42,6 @@ Protocol sessions() {
         .value;
 }
 
-/// Staircases on the level of `low` and on what `high` has as {hz}, or as {level_db} itself.
-Protocol variables(const std::string& hz, const std::string& name) {
-    return readProtocol(R"({"physvib_protocol": 1, "name": ")" + name + R"(", "conditions": [
-    {"name": "low", "layout": "phone1", "stimuli": "calls", "call": "stimulus phantom --at 0.5,0.5 --layout phone1 --level-db {level_db}"},
-    {"name": "high", "layout": "phone1", "stimuli": "calls", "call": "stimulus phantom --at 0.5,0.5 --layout phone1 --frequency )" +
-                            hz +
-                            R"( --level-g 0.3 --seconds 0.5", "variables": [{"name": "hz", "at_0_db": 200}]}],
-    "sessions": [{"name": "main", "task": "choose", "alternatives": [{"name": "standard"}, {"name": "other"}],
-     "staircase": {"alternative": "other", "start_db": 5, "step_db": 1, "least_step_db": 0.25, "reversals": 4, "most_db": 6}}]})",
-                        name)
-        .value;
-}
-
 Protocol example(const std::string& name) {
     return loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/" + name + ".json").value;
 }
@@ -70,11 +57,7 @@ std::vector<Sentence> sentences() {
                    quest = builtIn("level-quest"), methods = builtIn("eight-methods"),
                    fits = builtIn("model-or-sound"), field = places(),
                    constant = example("frequency-constant"), names = example("rhythm-names"),
-                   interleaved = example("level-mixed"), twice = sessions(),
-                   moved = variables("{hz}", "moved"),
-                   itself = variables("2{level_db}0 --duty {hz}", "itself");
-    Protocol often = grid; // five trials of each cell
-    often.name = "often", often.sessions.back().repetitions = 10;
+                   interleaved = example("level-mixed"), twice = sessions();
     Protocol matched = example("equal-sensation");
     Protocol told = grid;
     Protocol timed = grid;
@@ -82,20 +65,12 @@ std::vector<Sentence> sentences() {
     told.name = "told", told.sessions.back().task = StudyTask::describe;
     matched.conditions.push_back(matched.conditions.front()); // the chart compares means
     matched.conditions.back().name = "two";
-    Protocol twoReferences = matched, twoNumbers = numbers;
-    twoNumbers.name = "two-numbers", twoNumbers.conditions.push_back(twoNumbers.conditions.front());
-    twoNumbers.conditions.back().name = "two";
+    Protocol twoReferences = matched;
     twoReferences.name = "two-references";
     twoReferences.sessions.back().alternatives.front().levelDb = -3.0;
     Protocol cut = interleaved;
     cut.name = "cut", cut.sessions.back().staircase->mostTrials = 6;
-    const Edit halfATraining = [](Row& row) {
-        if (row["participant"] == "P2" && row["phase"] == "training" && row["trial"] == "2")
-            row["participant"].clear();
-    };
-    Protocol unknown = steps, mixed = steps;
-    mixed.sessions.push_back(quest.sessions.front());
-    mixed.sessions.back().name = "by quest", mixed.name = "mixed";
+    Protocol unknown = steps;
     unknown.seed = 77; // no built-in one has its hash
     const Edit device = both(both(set("device", "JACK:x"), set("version", "0.2.0")),
                              both(both(set("master_db", "0"), set("noise_db", "off")),
@@ -117,26 +92,11 @@ std::vector<Sentence> sentences() {
                 row[column] = value;
         };
     };
-    const Edit right = [](Row& row) { row["response"] = row["stimulus"]; };
-    const Edit wrongOnce = [=](Row& row) {
-        right(row);
-        if (row["participant"] == "P2" && row["trial"] == "1")
-            row["response"] = row["stimulus"] == "1,1" ? "1,2" : "1,1";
-    };
-    const Edit aloneIn300 = [=](Row& row) {
-        if (row["session"] == "early") firstOfP2("stimulus", "300")(row);
-    };
-    const Edit equal = [](Row& row) {
-        if (row["task"] == "choose") row["choice"] = std::stoi(row["trial"]) % 2 ? "model" : "SV";
-    };
     const Edit unscored = [](Row& row) {
         if (row["participant"] == "P2" && row["trial"] == "1") row["rough"].clear();
     };
     const Edit noTraining = [](Row& row) {
         if (row["phase"] == "training") row["participant"].clear();
-    };
-    const Edit noStaircase = [](Row& row) {
-        if (row["participant"] == "P2" && row["quest"].empty()) row["participant"].clear();
     };
     const Edit lacks = [](Row& row) {
         if (row["participant"] == "P2" && (row["trial"] == "5" || row["trial"] == "6"))
@@ -299,7 +259,7 @@ TEST(ReportSentences, APlanStandsBesideWhatWasDone) {
     auto trials = readReportTrials({{"P1.csv", fileOf(points(), 1, {})}}, {}, {}).value;
     trials.facts.plan = plan;
     const std::string page = studyReport(trials).files.at("index.html");
-    for (const std::string row :
+    for (const std::string& row :
          {"<td>hash of the protocol</td><td class=\"number\">7</td><td>" + trials.common("hash"),
           std::string{"<td>participants</td><td class=\"number\">4</td><td class=\"number\">1</td>"},
           std::string{"<td>a</td><td>yes</td><td>no</td>"}})
