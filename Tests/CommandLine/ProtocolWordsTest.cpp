@@ -33,7 +33,7 @@ TEST(ProtocolWords, FieldsOfAProtocolStandByTheirNames) {
 TEST(ProtocolWords, StimuliHaveTheFieldsOfTheirKind) {
     EXPECT_EQ(conditionWords(
                   read(R"("task": "identify")", std::string{grid} + R"(, "level_g": 0.37)").conditions[0]),
-              "PHONE: layout phone4; frequency_hz 200; level_g 0.37; stimuli grid; columns 3; rows 2; points "
+              "PHONE: layout phone4; frequency_hz 205; level_g 0.37; stimuli grid; columns 3; rows 2; points "
               "corners; "
               "law linear; exponent 1; seconds 1");
     EXPECT_EQ(

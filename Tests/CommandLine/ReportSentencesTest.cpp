@@ -225,12 +225,22 @@ std::vector<Sentence> sentences() {
 }
 
 /// Sentences that other tests have with their counter-examples, and words of the rows and of the protocol.
-const char* const toldElsewhere[] = {
-    "without a file of times", "report: physvib",   "trials: physvib",      "protocol: ",
-    "seed of all orders: ",    "left out: a step ", "left out: the share ", "left out: the f"};
+const char* const toldElsewhere[] = {"without a file of times",
+                                     "report: physvib",
+                                     "trials: physvib",
+                                     "protocol: ",
+                                     "seed of all orders: ",
+                                     "left out: a step ",
+                                     "left out: the share ",
+                                     "left out: the f",
+                                     "Dashed: level of ",
+                                     " of # rows: ",
+                                     "Mean score of each scale in ",
+                                     "Mean share of each alternative"};
 
-bool isKnown(const std::string& sentence, const std::vector<Sentence>& all,
-             const std::set<std::string>& plan) {
+bool isKnown(const std::string& said, const std::vector<Sentence>& all, const std::set<std::string>& plan) {
+    const std::string sentence = replaced(said, "n = # to #", "n = #");
+    if (sentence == "none") return true;
     const auto shares = [&](const std::string& words) {
         return sentence.find(words) != std::string::npos || words.find(sentence) != std::string::npos;
     };
@@ -296,7 +306,7 @@ TEST(ReportSentences, StaircasesThatRanOutOfTimeAreNoChoices) {
             if (row["trial"] == "2") row["ran_out"] = "1", row["correct"].clear();
         },
         true));
-    EXPECT_NE(page.find("ran out of time, without an answer"), std::string::npos);
+    EXPECT_NE(page.find("ran out of time</td><td>these trials"), std::string::npos);
     for (const char* untrue : {"<h2>Choices", "expected trials of this kind"})
         EXPECT_EQ(page.find(untrue), std::string::npos) << untrue;
 }
