@@ -358,7 +358,8 @@ StudyCheck checkStudy(const Protocol& protocol, int participants, const std::fun
         if (planned.isSpread) spreadParts.insert(cleanLine(planned.part));
         check.stimuli.push_back(stimuli.check(planned));
     }
-    check.facts.push_back(levelChain(protocol, "as rendered, without the limiter"));
+    check.facts.push_back("levels in g: samples as rendered, without the limiter, times the full scale of " +
+                          fullScales(protocol));
     if (!spreadParts.empty())
         check.facts.push_back("levels: sessions can reach more than " + std::to_string(mostPlannedLevels) +
                               " of " +

@@ -21,8 +21,7 @@ TEST_F(AnalyseFits, FunctionsAreFittedToEachParticipant) {
     write("c.csv", choices);
     const auto fitted = call("analyse psychometric c.csv --export f.csv");
     ASSERT_EQ(fitted.exitCode, 0) << fitted.err;
-    EXPECT_EQ(fitted.out.rfind("ring: threshold ", 0), 0u) << fitted.out;
-    EXPECT_NE(fitted.out.find(", 3 participants\n"), std::string::npos) << fitted.out;
+    EXPECT_NE(test::squeezed(fitted.out).find("\nring threshold 3 "), std::string::npos) << fitted.out;
     EXPECT_NE(
         read("f.csv").find(
             "\ncondition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood\nring,P0,120,"),
@@ -34,9 +33,11 @@ TEST_F(AnalyseFits, FunctionsAreFittedToEachParticipant) {
             choices.replace(at, std::string_view{from}.size(), to);
     write("m.csv", choices);
     const auto left = call("analyse psychometric m.csv --measure choice=right --guess 0");
-    EXPECT_EQ(left.out.rfind("ring: point of subjective equality ", 0), 0u) << left.out << left.err;
+    EXPECT_NE(test::squeezed(left.out).find("\nring point of subjective equality 3 "), std::string::npos)
+        << left.out;
     write("m.csv", magnitudes);
-    EXPECT_EQ(call("analyse power-law m.csv --level level_g").out, "exponent 2.000, 1 participant\n");
+    const std::string law = call("analyse power-law m.csv --level level_g").out;
+    EXPECT_NE(test::squeezed(law).find(" exponent 1 2\n"), std::string::npos) << law;
     refuses("analyse power-law c.csv", 1, "c.csv: expected a column value, found none", 3);
     refuses(
         "analyse power-law m.csv", 1,

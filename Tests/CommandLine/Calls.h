@@ -36,6 +36,13 @@ inline std::set<std::string> wordsIn(const std::string& text, const char* patter
     return words;
 }
 
+/// A table without the spaces that make its columns.
+inline std::string squeezed(std::string text) {
+    text.erase(std::unique(text.begin(), text.end(), [](char a, char b) { return a == ' ' && b == ' '; }),
+               text.end());
+    return text;
+}
+
 /// A fresh folder per test; paths in calls are relative to it.
 class CommandLine : public ::testing::Test {
 protected:

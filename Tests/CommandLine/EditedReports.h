@@ -7,6 +7,7 @@
 #include "Lab/Report/ReportTrials.h"
 #include "Lab/Report/StudyReport.h"
 #include "Lab/Study/SimulatedObserver.h"
+#include "TestPlaces.h"
 #include <cctype>
 #include <functional>
 #include <gtest/gtest.h>

@@ -44,8 +44,8 @@ TEST_F(ReportThresholds, OfConstantStimuliArePlanned) {
     writeThree(loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/frequency-constant.json").value);
     const std::string plan = call("study plan study.json --participants 4 --out plan.txt").out;
     for (const char* test :
-         {"and JNDs of each participant's logistic function",
-          "three quarters; functions are logistic, with a guess rate of 50 % and lapse rates of up to 10 %\n",
+         {"- threshold and JND of a function: ",
+          "likelihood, logistic, guess rate 50 %, lapse rate up to 10 %\n",
           "analysis of variance of threshold by condition", "pairs by t of JND by condition"})
         EXPECT_NE(plan.find(test), std::string::npos) << plan;
 }
@@ -79,10 +79,10 @@ TEST_F(ReportThresholds, OfTrainingsAreNotPlanned) {
         std::filesystem::remove(folder_ / "analysis.R");
         const auto outcome = call("study plan study.json --participants 4 --out plan.txt");
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-        EXPECT_NE(outcome.out.find("\nMeasures\n- scales: each participant's mean of each\n\n"),
+        EXPECT_NE(outcome.out.find("\nMeasures, of each participant\n- scale: mean score\n\n"),
                   std::string::npos)
             << outcome.out;
-        for (const char* words : {"- thresholds of", "- functions of levels"})
+        for (const char* words : {"- threshold", "- staircases", "- functions"})
             EXPECT_EQ(outcome.out.find(words), std::string::npos) << outcome.out;
     }
 }
@@ -98,25 +98,25 @@ TEST_F(ReportThresholds, PlansHaveTheirMeasuresAndTheTestsOfTimeThatRanOut) {
                       seconds > 0.0)
                 << plan;
         EXPECT_NE(
-            plan.find("\nMeasures\n- thresholds of staircases: means of the later half of the reversals "
-                      "of the level that a trial followed, so without one that ended the staircase"),
-            std::string::npos);
-        EXPECT_NE(plan.find(" reversals (also where a bound holds the level) or "), std::string::npos)
+            plan.find(
+                "\nMeasures, of each participant\n- threshold of a staircase: mean of the later half of"),
+            std::string::npos)
             << plan;
     }
     std::filesystem::remove(folder_ / "analysis.R");
     write("matches.json", read(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/equal-sensation.json"));
     write("pairs.json", read(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/pairs-similarity.json"));
     for (const auto& [name, measure] :
-         {std::pair<std::string, std::string>{"magnitudes", "magnitudes: geometric"},
-          {"matches.json", "matched levels: each"},
-          {"pairs.json", "pairs of stimuli: means over"},
+         {std::pair<std::string, std::string>{"magnitudes", "magnitude: geometric"},
+          {"matches.json", "matched level: mean"},
+          {"pairs.json", "pairs of stimuli: means"},
           {"eight-methods", ""}}) {
         std::filesystem::remove(folder_ / "analysis.R");
         const std::string plan = call("study plan " + name + " --participants 4 --out plan.txt").out;
-        for (const char* one : {"magnitudes: geometric", "matched levels: each",
-                                "pairs of stimuli: means over", "thresholds of"})
-            EXPECT_EQ(plan.find(std::string{"\nMeasures\n- "} + one) != plan.npos, one == measure)
+        for (const char* one :
+             {"magnitude: geometric", "matched level: mean", "pairs of stimuli: means", "threshold of"})
+            EXPECT_EQ(plan.find(std::string{"\nMeasures, of each participant\n- "} + one) != plan.npos,
+                      one == measure)
                 << name << plan;
     }
     ASSERT_EQ(call("study run pairs.json --observer simulated --participants 3").exitCode, 0);

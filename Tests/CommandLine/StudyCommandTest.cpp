@@ -37,9 +37,8 @@ protected:
 
 TEST_F(Study, PatternsWhole) {
     const std::string out = analyse("confusion", run("patterns", 3));
-    for (const char* words :
-         {"PHONE-2\n  trials: 84 (28 stimuli)\n", "RING-4\n  trials: 504 (168 stimuli)\n"})
-        EXPECT_NE(out.find(words), std::string::npos) << out;
+    for (const char* words : {"\nPHONE-2 28 84 ", "\nRING-4 168 504 "})
+        EXPECT_NE(test::squeezed(out).find(words), std::string::npos) << out;
     EXPECT_NE(call("analyse icons patterns-P01.csv patterns-P02.csv --meanings 24").out.find("enough"),
               std::string::npos);
 }
@@ -58,23 +57,24 @@ TEST_F(Study, WithoutADisplayNoPersonAnswersAndItSaysWhere) {
 
 TEST_F(Study, PhantomGridsWhole) {
     const std::string files = run("phantom-grids", 2, "--observer simulated-RING");
-    EXPECT_NE(analyse("confusion", files).find("RING-5x5\n  trials: 500 (25 stimuli)\n"), std::string::npos);
-    EXPECT_NE(call("analyse confusion" + files + " --tolerance 1")
-                  .out.find("PHONE-3x3\n  trials: 180 (9 stimuli)\n"),
-              std::string::npos);
+    EXPECT_NE(test::squeezed(analyse("confusion", files)).find("\nRING-5x5 25 500 4 "), std::string::npos);
+    EXPECT_NE(
+        test::squeezed(call("analyse confusion" + files + " --tolerance 1").out).find("\nPHONE-3x3 9 180 "),
+        std::string::npos);
 }
 
 TEST_F(Study, PhantomPlacesWhole) {
     const std::string out = analyse("resolution", run("phantom-places", 4, "--observer simulated-RING"));
-    for (const char* condition : {"PHONE-LINEAR: ", "PHONE-LOGARITHM: ", "RING-LINEAR: ", "RING-LOGARITHM: "})
+    for (const char* condition :
+         {"\nPHONE-LINEAR ", "\nPHONE-LOGARITHM ", "\nRING-LINEAR ", "\nRING-LOGARITHM "})
         EXPECT_NE(out.find(condition), std::string::npos) << out;
 }
 
 TEST_F(Study, ModelOrSoundWhole) {
-    const std::string out = analyse("choices", run("model-or-sound", 3));
-    EXPECT_NE(out.find("all: AV-FV-DRV "), std::string::npos) << out;
-    EXPECT_NE(out.find(", 324 trials of 3 participants\n"), std::string::npos) << out;
-    EXPECT_NE(out.find("\nsize=small: "), std::string::npos) << out;
+    const std::string out = test::squeezed(analyse("choices", run("model-or-sound", 3)));
+    EXPECT_NE(out.find("\nall AV-FV-DRV "), std::string::npos) << out;
+    EXPECT_NE(out.find(" 324 3 "), std::string::npos) << out;
+    EXPECT_NE(out.find("\nsize=small "), std::string::npos) << out;
 }
 
 TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
@@ -102,9 +102,8 @@ TEST_F(Study, RecordingsOfTheCallStandInEveryRowAndWhatIsSyntheticIsNamed) {
 }
 
 TEST_F(Study, EightMethodsWhole) {
-    const std::string out = analyse("ratings", run("eight-methods", 2));
-    EXPECT_NE(out.find("AV-FV-DRV: 20 trials of 2 participants, realism "), std::string::npos) << out;
-    EXPECT_NE(out.find("\nFF: 80 trials of 2 participants, realism "), std::string::npos) << out;
+    const std::string out = test::squeezed(analyse("ratings", run("eight-methods", 2)));
+    EXPECT_NE(out.find("\nAV-FV-DRV realism 20 2 "), std::string::npos) << out;
 }
 
 TEST_F(Study, EveryTrialCarriesWhatRendersItAgain) {
@@ -158,12 +157,16 @@ TEST_F(Study, ProtocolsOfOnesOwnNeedNoCode) {
     EXPECT_NE(read("level-steps-anna_1.csv").find(",choose,"), std::string::npos);
     ASSERT_EQ(call("study run magnitudes --observer simulated").exitCode, 0);
     EXPECT_NE(read("magnitudes-P01.csv").find(",estimate,"), std::string::npos);
-    EXPECT_NE(analyse("levels", " level-steps-anna_1.csv").find("PHONE: threshold "), std::string::npos);
+    EXPECT_NE(test::squeezed(analyse("levels", " level-steps-anna_1.csv"))
+                  .find("\nthreshold by staircase (dB) PHONE "),
+              std::string::npos);
     ASSERT_EQ(call("study run level-quest --observer simulated --participants 2").exitCode, 0);
-    const auto quest = analyse("levels", " level-quest-P01.csv level-quest-P02.csv");
-    EXPECT_NE(quest.find("PHONE: threshold by QUEST+ "), std::string::npos) << quest;
-    EXPECT_NE(quest.find(", 95 % interval "), std::string::npos) << quest;
-    EXPECT_NE(analyse("levels", " magnitudes-P01.csv").find("PHONE, 0.4: geometric mean magnitude "),
+    const auto quest = test::squeezed(analyse("levels", " level-quest-P01.csv level-quest-P02.csv"));
+    EXPECT_NE(quest.find("\nthreshold by QUEST+ (dB; interval: t and error of the widths) PHONE "),
+              std::string::npos)
+        << quest;
+    EXPECT_NE(test::squeezed(analyse("levels", " magnitudes-P01.csv"))
+                  .find("\ngeometric mean magnitude (SD of log10) PHONE 0.4 "),
               std::string::npos);
     EXPECT_EQ(std::ranges::count(call("study list").out, '\n'), 13) << "eight, and five as published";
 }

@@ -257,8 +257,8 @@ def show_whole(folder: Path) -> None:
     if events != expected:
         raise SystemExit(f"{DISPLAY_SIZE}: the file of times has {events}, expected {expected}")
     run(BIN / "physvib", "report", file, "--protocol", protocol, "--out", folder / "report")
-    sentence = re.search(r"<li>(P01 began at .*?)</li>", (folder / "report/index.html").read_text())
-    print(f"{DISPLAY_SIZE}: 10 of 10 trials after a break, a kill and a closed window. {sentence[1]}")
+    sittings = re.search(r"<tr>(<td>P01</td><td>20.*?)</tr>", (folder / "report/index.html").read_text())
+    print(f"{DISPLAY_SIZE}: 10 of 10 trials after a break, a kill and a closed window. {re.sub('<[^>]*>', ' ', sittings[1])}")
 
 
 def main() -> None:

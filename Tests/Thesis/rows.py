@@ -178,7 +178,7 @@ def what_they_print(folder: Path) -> None:
     single = [(row["df1"], row["df2"]) for row in tests if "single trials" in row["test"]]
     if tests and single != [("6", "2750"), ("4", "2750"), ("24", "2750")] * 8:
         bad.append(f"report-places/tests.csv: expected the degrees of freedom of Table 4.1, found {single}")
-    if "(as thesis Fig. 5.8), 95 % intervals by ranks" not in (folder / "report-choices/index.html").read_text():
+    if '"of the median, by ranks"' not in (folder / "report-choices/choices.csv").read_text():
         bad.append("report-choices: expected medians, as Fig. 5.8 has them")
     hits = [row for row in csv.DictReader((folder / "amplitudes.csv").read_text().splitlines()[1:])]
     if not hits or float(hits[0]["amplitude"]) > 0.1:

@@ -27,67 +27,67 @@ Result<StudyData<IdentificationTrial>> readLabels(const AnalysisJob& o) {
 namespace {
 
 std::string bits(double value) { return fixedNumber(value, 2) + " bit"; }
+
 std::vector<std::string> matrixWarnings(const ConfusionMatrix& matrix, const InformationTransfer& it) {
     std::vector<std::string> words;
     const auto totals = matrix.stimulusTotals();
     const auto [fewest, most] = std::ranges::minmax(totals);
     if (fewest != most) {
         const auto at = static_cast<std::size_t>(std::ranges::find(totals, fewest) - totals.begin());
-        words.push_back("stimuli were not answered equally often: " + cleanLine(matrix.label(at)) + " " +
-                        std::to_string(fewest) + " times, others up to " + std::to_string(most));
+        words.push_back("stimuli have unequal numbers of answers: " + cleanLine(matrix.label(at)) + " " +
+                        std::to_string(fewest) + ", others up to " + std::to_string(most));
     }
     if (matrix.responses() > matrix.stimuli())
         words.push_back(
             "responses that are no stimulus count as wrong: " + cleanLine(matrix.label(matrix.stimuli())) +
             (matrix.responses() > matrix.stimuli() + 1 ? " and others" : ""));
-    if (matrix.stimuli() == 1) words.push_back("only one stimulus: nothing can be transferred");
+    if (matrix.stimuli() == 1) words.emplace_back("one stimulus");
     if (!it.canBeCorrected())
-        words.push_back(fixedNumber(it.trialsPerCell, 2) + " trials per cell, expected at least " +
-                        fixedNumber(trialsPerCellForCorrection, 0) +
-                        ": IT is biased upward and its correction overshoots; Fano's bound is given instead");
+        words.push_back(fixedNumber(it.trialsPerCell, 2) + " trials per cell, fewer than " +
+                        fixedNumber(trialsPerCellForCorrection, 0) + ": IT is not corrected");
     return words;
 }
 
-/// Trials of one person depend on each other: the interval is over people where there are several.
-std::string correctWords(const ConfusionMatrix& matrix, const std::vector<ParticipantTransfer>& people) {
-    const Proportion correct = proportion(matrix.correct(), matrix.trials());
-    const std::string share = percent(correct.share);
-    if (people.size() < 2)
-        return share + " (95 % interval over trials " + percent(correct.least) + " to " +
-               percent(correct.most) + ")";
-    std::vector<double> shares;
-    for (const ParticipantTransfer& own : people)
-        shares.push_back(static_cast<double>(own.matrix.correct()) /
+/// Percent correct by guessing, where answers within `tolerance` steps count.
+double chanceOf(const ConfusionMatrix& matrix, int tolerance) {
+    std::vector<IdentificationTrial> guessed;
+    for (std::size_t i = 0; i < matrix.stimuli(); ++i)
+        for (std::size_t j = 0; j < matrix.stimuli(); ++j)
+            guessed.push_back({matrix.label(i), matrix.label(j)});
+    const ConfusionMatrix chance{withTolerance(std::move(guessed), tolerance)};
+    return 100.0 * proportion(chance.correct(), chance.trials()).share;
+}
+
+/// A row of the summary: all trials together, and over participants, whose interval is cut at 0 and 100 %.
+void summarise(ExportTable& summary, const std::string& condition, const ConfusionMatrix& matrix,
+               const InformationTransfer& it, const std::vector<ParticipantTransfer>& people,
+               double chancePercent) {
+    const Proportion all = proportion(matrix.correct(), matrix.trials());
+    const auto known = [](bool isKnown, double value) {
+        return isKnown ? std::optional{value} : std::nullopt;
+    };
+    std::vector<double> shares, bits;
+    for (const ParticipantTransfer& own : people) {
+        shares.push_back(100.0 * static_cast<double>(own.matrix.correct()) /
                          static_cast<double>(own.matrix.trials()));
-    const Moments moments{shares};
-    const std::string mean = share + "; mean of participants " + percent(moments.mean);
-    if (moments.halfInterval() == 0.0)
-        return mean + " (" + counted(people.size(), "participant") + ", all the same)";
-    return mean + " (95 % interval over " + counted(people.size(), "participant") + " " +
-           percent(std::max(0.0, moments.least())) + " to " + percent(std::min(1.0, moments.most())) +
-           (moments.least() < 0.0 || moments.most() > 1.0 ? ", cut at 0 and 100 %)" : ")");
+        if (own.matrix.stimuli() == matrix.stimuli()) bits.push_back(own.transfer.bits);
+    }
+    const Moments moments{shares}, transferred{bits};
+    const bool hasSpread = moments.deviation > 0.0, isAlone = people.size() < 2;
+    summary.row(condition, matrix.stimuli(), std::size_t{matrix.trials()}, chancePercent, 100.0 * all.share,
+                people.size(), known(!isAlone, moments.mean), known(hasSpread, moments.deviation),
+                known(isAlone || hasSpread, isAlone ? 100.0 * all.least : std::max(0.0, moments.least())),
+                known(isAlone || hasSpread, isAlone ? 100.0 * all.most : std::min(100.0, moments.most())),
+                isAlone     ? "over trials, Wilson's"
+                : hasSpread ? "t, cut at 0 and 100"
+                            : "",
+                it.bits, known(it.canBeCorrected(), it.correctedBits()), it.mostBits, it.leastBits,
+                known(transferred.n > 1, transferred.mean), known(transferred.n > 1, transferred.deviation));
 }
 
-void tell(std::ostream& out, const std::string& indent, const ConfusionMatrix& matrix,
-          const InformationTransfer& it, const std::vector<ParticipantTransfer>& people) {
-    out << indent << "trials: " << matrix.trials() << " (" << matrix.stimuli() << " stimuli)\n"
-        << indent << "percent correct: " << correctWords(matrix, people) << '\n'
-        << indent << "IT: " << bits(it.bits) << " of " << bits(it.mostBits) << '\n';
-    if (it.canBeCorrected())
-        out << indent << "corrected IT: " << bits(it.correctedBits())
-            << ", less Miller's bias, (cells - rows - columns + 1) / (2 N ln 2) of those with answers\n";
-    else
-        out << indent << "IT bound: at least " << bits(it.leastBits) << " (Fano)\n";
-    out << indent << (it.canBeCorrected() ? "2^corrected IT: " : "2^IT: ")
-        << fixedNumber(std::exp2(it.bestBits()), 1) << '\n';
-}
-
-/// Each participant in both tables; their mean information transfer, and who lacks stimuli, as text.
-void tellAndExport(std::ostream& out, const std::string& indent, const std::string& condition,
-                   const std::vector<ParticipantTransfer>& people, std::size_t stimuli, bool isOfAll,
-                   ExportTable& counts, ExportTable& each) {
-    std::vector<double> transferred;
-    std::size_t corrected = 0, fewest = people.front().matrix.trials(), most = fewest;
+/// Each participant in both tables; who lacks stimuli.
+std::string exportPeople(const std::string& condition, const std::vector<ParticipantTransfer>& people,
+                         std::size_t stimuli, bool isOfAll, ExportTable& counts, ExportTable& each) {
     std::string lacking;
     for (const auto& [participant, matrix, transfer] : people) {
         for (std::size_t i = 0; i < matrix.stimuli(); ++i)
@@ -99,27 +99,9 @@ void tellAndExport(std::ostream& out, const std::string& indent, const std::stri
         each.row(condition, participant, std::size_t{matrix.trials()},
                  isWhole || isOfAll ? std::optional{100.0 * share} : std::nullopt, transfer.bits,
                  transfer.canBeCorrected() ? std::optional{transfer.correctedBits()} : std::nullopt);
-        fewest = std::min<std::size_t>(fewest, matrix.trials()),
-        most = std::max<std::size_t>(most, matrix.trials());
-        if (isWhole)
-            transferred.push_back(transfer.bestBits()), corrected += transfer.canBeCorrected();
-        else
-            lacking += (lacking.empty() ? "" : ", ") + cleanLine(participant);
+        if (!isWhole) lacking += (lacking.empty() ? "" : ", ") + cleanLine(participant);
     }
-    if (fewest < most)
-        out << indent << "people have " << fewest << " to " << most
-            << " trials, by whose number they count in IT\n";
-    const Moments moments{transferred};
-    if (moments.n > 1)
-        out << indent << "IT of participants: mean " << bits(moments.mean) << ", standard error "
-            << bits(moments.standardError()) << ", " << moments.n << " participants, "
-            << (corrected == moments.n ? "corrected\n"
-                : corrected == 0       ? "not corrected\n"
-                                       : "corrected where there are trials enough\n");
-    if (!lacking.empty())
-        out << indent << "stimuli are lacking of " << lacking
-            << (isOfAll ? ": each counts with those that there are\n"
-                        : ": left out of means of participants\n");
+    return lacking;
 }
 
 std::string patternsOf(const ConfusionMatrix& matrix) {
@@ -134,19 +116,6 @@ std::string patternsOf(const ConfusionMatrix& matrix) {
            counted(static_cast<std::size_t>(enchanters), "actuator");
 }
 
-/// What guessing would come to, where near answers count as right.
-void tellChance(std::ostream& out, const std::string& indent, const ConfusionMatrix& matrix, int tolerance) {
-    std::vector<IdentificationTrial> guessed;
-    for (std::size_t i = 0; i < matrix.stimuli(); ++i)
-        for (std::size_t j = 0; j < matrix.stimuli(); ++j)
-            guessed.push_back({matrix.label(i), matrix.label(j)});
-    const ConfusionMatrix chance{withTolerance(std::move(guessed), tolerance)};
-    out << indent << "answers within " << counted(static_cast<std::size_t>(tolerance), "step")
-        << " count as the stimulus: by chance "
-        << percent(proportion(chance.correct(), chance.trials()).share) << " % and "
-        << bits(informationTransfer(chance).bits) << '\n';
-}
-
 std::string nameOr(const std::string& name, const char* other) { return name.empty() ? other : name; }
 
 } // namespace
@@ -155,23 +124,31 @@ void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings
     auto& [job, report, out, table] = to;
     ExportTable each{"confusion-participants", data.isSimulated,
                      "condition,participant,trials,percent_correct,it_bits,corrected_it_bits"};
+    ExportTable summary{
+        "confusion", data.isSimulated,
+        "condition,stimuli,trials,chance_percent,percent_correct,participants,mean_percent,standard_"
+        "deviation,least_percent,most_percent,interval,it_bits,corrected_it_bits,most_bits,fano_bits,mean_"
+        "own_"
+        "bits,deviation_own_bits"};
     std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
     for (const auto& condition : data.conditions) {
         const ConfusionMatrix matrix{condition.trials};
         const InformationTransfer it = informationTransfer(matrix);
         const std::string prefix = condition.name.empty() ? "" : cleanLine(condition.name) + ": ";
         for (const auto& words : matrixWarnings(matrix, it)) report.warnings.push_back(prefix + words);
-        if (!condition.name.empty()) out << cleanLine(condition.name) << '\n';
-        const char* const indent = condition.name.empty() ? "" : "  ";
         const auto people = transferByParticipant(condition.trials),
                    compared = comparable(people, matrix.stimuli());
-        tell(out, indent, matrix, it, compared);
-        if (job.tolerance > 0) tellChance(out, indent, matrix, job.tolerance);
-        tellAndExport(out, indent, condition.name, people, matrix.stimuli(), compared.size() == people.size(),
-                      table, each);
+        summarise(summary, condition.name, matrix, it, compared, chanceOf(matrix, job.tolerance));
+        const bool isOfAll = compared.size() == people.size();
+        const std::string lacking =
+            exportPeople(condition.name, people, matrix.stimuli(), isOfAll, table, each);
+        if (!lacking.empty())
+            report.warnings.push_back(prefix + "stimuli are lacking of " + lacking +
+                                      (isOfAll ? "" : ", left out of means of participants"));
         matrices.emplace_back(nameOr(condition.name, "all trials"), matrix);
     }
     report.participants = each.text();
+    report.summary = summary.text();
     report.picture = [matrices, isSimulated = data.isSimulated] {
         std::vector<std::string> charts;
         for (const auto& [name, matrix] : matrices)

@@ -6,54 +6,42 @@
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace physvib {
 namespace {
 
-/// Four significant digits, because units can be metres or pixels.
-std::string significant(double number) {
-    char digits[32];
-    number = number == 0.0 ? 0.0 : number; // avoids -0
-    return {digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 4).ptr};
-}
-
-/// "12.3, 95 % interval 10.1 to 14.5".
-std::string overParticipants(const std::vector<ParticipantError>& people, double ParticipantError::*value,
-                             bool ParticipantError::*has = nullptr) {
-    std::vector<double> values;
-    for (const ParticipantError& one : people)
-        if (has == nullptr || one.*has) values.push_back(one.*value);
-    if (values.empty()) return "not known";
-    const Moments moments{values};
-    if (moments.n < 2) return significant(moments.mean);
-    return significant(moments.mean) + ", 95 % interval " +
-           significant(moments.mean - moments.halfInterval()) + " to " +
-           significant(moments.mean + moments.halfInterval());
-}
-
 bool isOnALine(const std::vector<PlaceTrial>& trials) {
     return std::ranges::all_of(trials, [](const PlaceTrial& t) { return t.y == 0.0 && t.trueY == 0.0; });
 }
 
-void tellErrors(std::ostream& out, const std::string& condition, const std::vector<PlaceTrial>& trials) {
+/// Over participants: means of their means over targets.
+void summarise(ExportTable& summary, const std::string& condition, const std::vector<PlaceTrial>& trials) {
     const auto people = participantErrors(trials);
-    const auto most = std::ranges::max_element(people, {}, &ParticipantError::targets);
     const bool hasY = !isOnALine(trials);
-    out << cleanLine(condition) << ": " << trials.size() << " trials of "
-        << counted(people.size(), "participant") << ", up to " << most->targets << " targets\n"
-        << "  distance from the target: " << overParticipants(people, &ParticipantError::distance) << '\n'
-        << "  constant error, x: " << overParticipants(people, &ParticipantError::constantX) << '\n';
-    if (hasY)
-        out << "  constant error, y: " << overParticipants(people, &ParticipantError::constantY) << '\n';
-    out << "  variable error: "
-        << overParticipants(people, &ParticipantError::variable, &ParticipantError::hasVariable) << '\n'
-        << "  gain, x: " << overParticipants(people, &ParticipantError::gainX, &ParticipantError::hasGainX)
-        << '\n';
-    if (hasY)
-        out << "  gain, y: "
-            << overParticipants(people, &ParticipantError::gainY, &ParticipantError::hasGainY) << '\n';
+    struct Measure {
+        const char* name;
+        double ParticipantError::*value;
+        bool ParticipantError::*has = nullptr;
+        bool isOfY = false;
+    };
+    using P = ParticipantError;
+    for (const auto& [name, value, has, isOfY] :
+         {Measure{"distance from the target", &P::distance}, Measure{"constant error, x", &P::constantX},
+          Measure{"constant error, y", &P::constantY, nullptr, true},
+          Measure{"variable error", &P::variable, &P::hasVariable},
+          Measure{"gain, x", &P::gainX, &P::hasGainX}, Measure{"gain, y", &P::gainY, &P::hasGainY, true}}) {
+        std::vector<double> values;
+        for (const P& one : people)
+            if (has == nullptr || one.*has) values.push_back(one.*value);
+        if (values.empty() || (isOfY && !hasY)) continue;
+        const Moments own{values};
+        const auto known = [&](double number) {
+            return own.deviation > 0.0 ? std::optional{number} : std::nullopt;
+        };
+        summary.row(condition, name, trials.size(), own.n, own.mean, known(own.deviation), known(own.least()),
+                    known(own.most()));
+    }
 }
 
 } // namespace
@@ -64,14 +52,18 @@ Result<StudyData<PlaceTrial>> readTargets(const AnalysisJob& job) {
 }
 
 void analysePlaces(const StudyData<PlaceTrial>& data, const Findings& to) {
+    ExportTable summary{"places", data.isSimulated,
+                        "condition,measure,trials,participants,mean,standard_deviation,interval_"
+                        "least,interval_most"};
     for (const auto& condition : data.conditions) {
-        tellErrors(to.out, condition.name.empty() ? "all trials" : condition.name, condition.trials);
+        summarise(summary, condition.name, condition.trials);
         for (const TargetError& one : targetErrors(condition.trials)) {
             to.table.row(condition.name, one.participant, one.target, one.trials, one.trueX, one.trueY,
                          one.constantX, one.constantY,
                          one.trials > 1 ? std::optional{one.variable} : std::nullopt, one.distance);
         }
     }
+    to.report.summary = summary.text();
 }
 
 namespace {
@@ -93,24 +85,16 @@ std::string sizeWords(const GridMerge& merge) {
     return std::to_string(merge.columnGroups.size()) + " x " + std::to_string(merge.rowGroups.size());
 }
 
-std::string mergeWords(const GridMerge& merge) {
-    return "columns " + groupWords(merge.columnGroups) + "; rows " + groupWords(merge.rowGroups);
-}
+constexpr const char* gridColumns =
+    "condition,resolution,columns,rows,sum_percent,standard_deviation"; ///< a row for each tie
 
-void tell(std::ostream& out, const PercentCounts& counts, const PerceptualResolution& resolution,
-          double threshold) {
-    out << cleanLine(counts.condition) << ": ";
-    if (resolution.ties.empty()) {
-        out << "0 x 0\n  even the whole field does not reach " << numberText(threshold) << " %\n";
-        return;
+void tell(ExportTable& summary, const PercentCounts& counts, const PerceptualResolution& resolution) {
+    if (resolution.ties.empty()) summary.row(counts.condition, "0 x 0", "", "", "", "");
+    for (std::size_t i = 0; i < std::min(resolution.ties.size(), mostTiesTold); ++i) {
+        const GridMerge& merge = resolution.ties[i];
+        summary.row(counts.condition, sizeWords(merge), groupWords(merge.columnGroups),
+                    groupWords(merge.rowGroups), counts.sum(), counts.standardDeviation());
     }
-    out << sizeWords(resolution.ties.front()) << "\n  merge: " << mergeWords(resolution.ties.front()) << '\n';
-    for (std::size_t i = 1; i < std::min(resolution.ties.size(), mostTiesTold); ++i)
-        out << "  tie: " << sizeWords(resolution.ties[i]) << ", " << mergeWords(resolution.ties[i]) << '\n';
-    if (resolution.ties.size() > mostTiesTold)
-        out << "  and " << resolution.ties.size() - mostTiesTold << " more ties\n";
-    out << "  sum " << fixedNumber(counts.sum(), 2) << " %, standard deviation "
-        << fixedNumber(counts.standardDeviation(), 2) << '\n';
 }
 
 void exportMerged(ExportTable& table, const PercentCounts& counts, const PerceptualResolution& resolution) {
@@ -164,7 +148,9 @@ void analyseResolution(const StudyData<LocationTrial>& data, const Findings& to)
         counts.push_back(one.counts);
         exportNormals(table, one);
     }
-    for (const ConditionResolution& one : made) tell(out, one.counts, one.resolution, job.thresholdPercent);
+    ExportTable summary{"resolution", data.isSimulated, gridColumns};
+    for (const ConditionResolution& one : made) tell(summary, one.counts, one.resolution);
+    report.summary = summary.text();
     Provenance provenance{PHYSVIB_VERSION, {{"analysis", "resolution"}}};
     if (data.isSimulated) provenance.entries.emplace_back("observer", "simulated");
     report.counts = percentCountsCsv(counts, provenance);
@@ -182,14 +168,16 @@ void analyseResolution(const StudyData<LocationTrial>& data, const Findings& to)
 
 void analysePercentCounts(const StudyData<PercentCounts>& data, const Findings& to) {
     const double threshold = to.job.thresholdPercent;
+    ExportTable summary{"percent-counts", data.isSimulated, gridColumns};
     std::vector<ConditionResolution> made;
     for (const auto& condition : data.conditions) {
         const PercentCounts& counts = condition.trials.front();
         warnOfSum(counts, to.report.warnings);
         made.push_back({counts.condition, {}, counts, perceptualResolution(counts, threshold)});
-        tell(to.out, counts, made.back().resolution, threshold);
+        tell(summary, counts, made.back().resolution);
         exportMerged(to.table, counts, made.back().resolution);
     }
+    to.report.summary = summary.text();
     to.report.picture = [made, isSimulated = data.isSimulated] {
         std::vector<std::string> charts;
         for (const ConditionResolution& one : made) addCounts(charts, one, isSimulated);

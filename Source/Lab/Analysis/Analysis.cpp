@@ -5,10 +5,22 @@
 #include "Lab/Report/ReportTrials.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <set>
 #include <sstream>
 
 namespace physvib {
+
+std::string shownCell(const std::string& cell) {
+    const auto number = parseNumber<double>(cell);
+    if (!number || cell.find_first_of(".e") == std::string::npos) return cell;
+    if (std::abs(*number) >= 1000.0) return fixedNumber(*number, 1);
+    char digits[32];
+    return {digits,
+            std::to_chars(digits, digits + sizeof digits, *number, std::chars_format::general, 4).ptr};
+}
+
 namespace {
 
 template <auto reader>
@@ -26,9 +38,9 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
                 readReportTrials({{std::string{file.name}, std::string{file.text}}}, {}, job.protocol);
             if (!data || !trials) continue;
             if (job.made == nullptr && !trials.value.protocol && hasAdaptiveRows(trials.value))
-                data.value.warnings.push_back(std::string{file.name} +
-                                              ": of no built-in protocol: whether all levels came to their "
-                                              "end, or were at one, is known to `physvib report --protocol`");
+                data.value.warnings.push_back(
+                    std::string{file.name} + ": of no built-in protocol: unfinished staircases are not known "
+                                             "(physvib report --protocol)");
             const auto isOf = [](const LevelTrial& trial, const std::string& session) {
                 return trial.session.substr(0, trial.session.find('/')) == session;
             };
@@ -48,13 +60,35 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
                                              isOf(trial, run.session);
                                   }) > 0 &&
                     job.made == nullptr) // a report has told them
-                    data.value.warnings.push_back(run.words());
+                    data.value.warnings.push_back("participant " + run.participant + " left out: " +
+                                                  inSession(run.session, run.condition) + ": " + run.why());
         }
         return data;
     });
 }
 
 namespace {
+
+/// A table in columns of spaces.
+std::string aligned(const std::string& csv) {
+    const CsvTable table = readCsvTable(csv, "").value;
+    std::vector<std::vector<std::string>> rows{table.columns};
+    for (const CsvRow& row : table.rows) {
+        auto& cells = rows.emplace_back();
+        for (const std::string& cell : row.cells) cells.push_back(cleanLine(shownCell(cell)));
+    }
+    std::vector<std::size_t> widths(table.columns.size(), 0);
+    for (const auto& row : rows)
+        for (std::size_t c = 0; c < row.size(); ++c) widths[c] = std::max(widths[c], row[c].size());
+    std::string text;
+    for (const auto& row : rows) {
+        for (std::size_t c = 0; c < row.size(); ++c)
+            text += row[c] + std::string(widths[c] - row[c].size() + 2, ' ');
+        text.erase(text.find_last_not_of(' ') + 1);
+        text += '\n';
+    }
+    return text;
+}
 
 /// What `analyse` finds in the trials that `read` finds.
 template <auto read, auto analyse>
@@ -65,8 +99,9 @@ AnalysisReport analysed(const Analysis& which, const AnalysisJob& job) {
     ExportTable table{which.name, report.isSimulated, which.columns};
     std::ostringstream out;
     analyse(data.value, Findings{job, report, out, table});
-    report.words = out.str();
     report.table = table.text();
+    if (report.summary.empty()) report.summary = report.table;
+    report.words = out.str().empty() ? aligned(report.summary) : out.str();
     return report;
 }
 
@@ -86,15 +121,15 @@ constexpr Analysis analyses[] = {
     {Analysis::Kind::results, "percent-counts", "percent counts: the largest grid that merging makes of them",
      "condition,row,column,percent", analysed<fromFiles<readPercentCounts>, analysePercentCounts>},
     {Analysis::Kind::results, "choices", "forced choices: shares of the alternatives",
-     "condition,alternative,votes,trials,percent,least_percent,most_percent,participants,participants_median_"
-     "percent",
+     "condition,alternative,votes,trials,participants,percent,participants_median_percent,least_percent,"
+     "most_percent,interval",
      analysed<fromFiles<readChoices>, analyseChoices>},
     {Analysis::Kind::results, "ratings", "slider ratings: means by condition",
-     "condition,scale,trials,participants,mean,standard_deviation,half_interval",
+     "condition,scale,trials,participants,mean,median,standard_deviation,half_interval",
      analysed<fromFiles<readRatings>, analyseRatings>},
     {Analysis::Kind::results, "levels",
      "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means",
-     "kind,condition,stimulus,trials,participants,reversals,estimate,standard_deviation,half_interval",
+     "kind,condition,stimulus,trials,participants,estimate,standard_deviation,half_interval",
      analysed<readFinishedLevels, analyseLevels>},
     {Analysis::Kind::results, "icons", "stimulus,response per trial: the patterns that are confused least",
      "condition,stimulus,percent_correct", analysed<readLabels, analyseIcons>},

@@ -26,6 +26,9 @@ namespace physvib {
 
 inline std::string percent(double share) { return fixedNumber(100.0 * share, 1); }
 
+/// A number of a table as a page or terminal shows it: of four significant digits. Any thread.
+std::string shownCell(const std::string& cell);
+
 /// Input files of an analysis.
 struct StudySources {
     std::vector<std::string> files;
@@ -129,6 +132,7 @@ struct AnalysisReport {
     bool isSimulated = false;                      ///< trials are of a simulated observer
     std::vector<std::string> warnings{};           ///< one line each
     std::string words{};                           ///< text result, in lines
+    std::string summary{};                         ///< CSV of what `words` shows; else `table` is shown
     std::function<std::string()> picture{};        ///< SVG, watermarked if simulated; empty: none
     std::string table{}, counts{}, participants{}; ///< CSV
 };

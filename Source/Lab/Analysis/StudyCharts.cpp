@@ -27,8 +27,6 @@ std::vector<std::string> numbersTo(std::size_t most) {
     return numbers;
 }
 
-constexpr const char* conditionOrLevel = "condition, stimulus or level of a factor";
-
 } // namespace
 
 std::string confusionChart(ChartFrame frame, const ConfusionMatrix& matrix) {
@@ -86,8 +84,8 @@ std::string mergedChart(ChartFrame frame, const ConditionResolution& one) {
     return countsChart(std::move(frame), merged(one.counts, merge));
 }
 
-std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries, bool ofMedians) {
-    BarChart chart{std::move(frame), conditionOrLevel, "chosen (%)", {}, {}};
+std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries) {
+    BarChart chart{std::move(frame), "condition", "chosen (%)", {}, {}};
     std::set<std::string> alternatives;
     for (const ChoiceSummary& summary : summaries)
         for (const ChoiceShare& share : summary.shares) alternatives.insert(share.alternative);
@@ -96,32 +94,24 @@ std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summ
         chart.groups.push_back(summary.condition);
         for (BarSeries& series : chart.series) {
             const ChoiceShare* const share = summary.of(series.name);
-            auto& bar = series.bars.emplace_back();
-            if (share == nullptr) continue; // not offered
-            const RankInterval by = ofMedians              ? share->ofMedian
-                                    : share->hasInterval() ? RankInterval{share->least, share->most}
-                                                           : RankInterval{share->share, share->share};
-            bar = ChartValue{100.0 * (ofMedians ? share->median : share->share), 100.0 * by.least,
-                             100.0 * by.most};
+            auto& bar = series.bars.emplace_back(); // none: not offered
+            if (share != nullptr && !std::isnan(share->share)) bar = ChartValue::around(100.0 * share->share);
         }
     }
     chart.most = 100.0;
-    if (const auto offered = alternativesOffered(summaries); offered > 0)
-        chart.reference = {100.0 / static_cast<double>(offered), "chance"};
     return barChart(chart);
 }
 
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
                         const std::vector<RatingSummary>& summaries, int points) {
-    BarChart chart{std::move(frame), conditionOrLevel, "mean score", {}, {}};
+    BarChart chart{std::move(frame), "condition", "mean score", {}, {}};
     for (const std::string& scale : scales) chart.series.push_back({scale, {}});
     for (const RatingSummary& summary : summaries) {
         chart.groups.push_back(summary.condition);
         for (std::size_t s = 0; s < scales.size(); ++s)
-            chart.series[s].bars.push_back(
-                std::isnan(summary.means[s])
-                    ? std::nullopt
-                    : std::optional{ChartValue::around(summary.means[s], summary.halfIntervals[s])});
+            chart.series[s].bars.push_back(std::isnan(summary.means[s])
+                                               ? std::nullopt
+                                               : std::optional{ChartValue::around(summary.means[s])});
         // scores of some points have an axis of their own
         if (std::ranges::any_of(summary.means, [](double mean) { return mean > 11.0; })) chart.most = 100.0;
     }
@@ -135,13 +125,12 @@ std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales
 std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries, LevelTrial::Kind kind,
                        const std::optional<std::pair<double, std::string>>& reference) {
     const bool isMagnitude = kind == LevelTrial::Kind::magnitude;
-    BarChart chart{std::move(frame), isMagnitude ? "" : "lines: 95 % intervals",
-                   isMagnitude ? "geometric mean" : "level (dB)"};
+    BarChart chart{std::move(frame), "condition", isMagnitude ? "geometric mean" : "level (dB)"};
     chart.reference = reference;
     for (const LevelSummary& s : summaries)
         if (s.kind == kind && !std::isnan(s.estimate))
             chart.add(s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
-                      ChartValue::around(s.estimate, s.halfInterval));
+                      ChartValue::around(s.estimate));
     return chart.groups.empty() ? std::string{} : barChart(chart);
 }
 
@@ -198,13 +187,6 @@ double meanOf(const std::vector<double>& values) { return Moments(values).mean; 
 
 } // namespace
 
-int decimalsOf(double jnd) noexcept {
-    int decimals = 2;
-    for (double rest = std::abs(jnd) * 10.0; rest > 0.0 && rest < 1.0 && decimals < 12; rest *= 10.0)
-        ++decimals;
-    return decimals;
-}
-
 FitWords fitWords(std::span<const ColumnName> columns, const std::string& level, const std::string& measure) {
     FitWords words;
     for (const ColumnName& column : columns) {
@@ -217,23 +199,20 @@ FitWords fitWords(std::span<const ColumnName> columns, const std::string& level,
 }
 
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
-                              const PsychometricModel& model, const FitWords& words, const LevelSummary* told,
-                              std::vector<std::string>* leftOut) {
+                              const PsychometricModel& model, const FitWords& words,
+                              const LevelSummary* told) {
     const auto fits = psychometricByParticipant(told ? std::vector<LevelAnswer>{} : trials, model);
     std::vector<LevelAnswer> shown = trials; // of those who have a function, if somebody has
     const auto isLeftOut = [](const auto& own) { return !own.fit.fault.empty(); };
     if (!std::ranges::all_of(fits, isLeftOut))
         for (const auto& own : fits)
-            if (isLeftOut(own)) {
+            if (isLeftOut(own))
                 std::erase_if(shown, [&](const auto& trial) { return trial.participant == own.participant; });
-                if (leftOut != nullptr) leftOut->push_back(own.participant);
-            }
     const auto counts = countByLevel(shown, [](const LevelAnswer& trial) { return trial.counted(); });
     const double least = counts.front().level, most = counts.back().level;
     LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
-    const bool isOfMany = byParticipant(trials).size() > 1;
     for (const auto& own : fits) {
         if (isLeftOut(own)) continue;
         thresholds.push_back(own.fit.function.threshold);
@@ -242,10 +221,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         chart.series.push_back(curve(own.fit.function, least, most));
         chart.series.back().isFaint = true;
     }
-    LineSeries answers{shown.size() < trials.size() ? "trials of those with a function"
-                       : isOfMany                   ? "trials of all participants"
-                                                    : "trials",
-                       {}};
+    LineSeries answers{"trials", {}};
     answers.isDrawnThrough = false;
     const auto largest = static_cast<double>(std::ranges::max(counts, {}, &LevelCount::trials).trials);
     for (const LevelCount& count : counts) {
@@ -254,22 +230,18 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         answers.points.push_back({count.level, {share, share, share}, 0.5 + 1.3 * std::sqrt(n / largest)});
     }
     if (told != nullptr) {
-        chart.threshold =
-            ChartValue::around(told->estimate, told->participants > 1 ? told->halfInterval : 0.0);
-        chart.thresholdWords = "threshold " + fixedNumber(told->estimate, 1);
+        chart.threshold = ChartValue::around(told->estimate);
+        chart.thresholdWords = "mean threshold";
     } else if (!thresholds.empty()) {
         if (!widths.empty()) {
             LineSeries mean =
                 curve(model.with(meanOf(thresholds), meanOf(widths), meanOf(lapses)), least, most);
-            mean.name = isOfMany ? std::string{"function of the mean "} + words.half(model) + " and width"
-                                 : "function";
+            mean.name = "mean function";
             mean.style = 4;
             chart.series.push_back(std::move(mean));
         }
-        const Moments own{thresholds};
-        chart.threshold = ChartValue::around(own.mean, own.halfInterval());
-        chart.thresholdWords =
-            words.half(model) + (" " + fixedNumber(own.mean, decimalsOf(0.2 * meanOf(widths))));
+        chart.threshold = ChartValue::around(meanOf(thresholds));
+        chart.thresholdWords = std::string{"mean "} + words.half(model);
     }
     chart.series.push_back(std::move(answers));
     if (model.guess > 0.0) chart.references = {{100.0 * model.guess, "guessing"}};
@@ -291,17 +263,13 @@ std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& tria
         std::size_t i = 0;
         for (const auto& [level, values] : levels) relative[level].push_back(means[i++] - own);
     }
-    LineChart chart{std::move(frame), levelWords, "magnitude / participant's mean in that condition", {}};
+    LineChart chart{std::move(frame), levelWords, "magnitude / participant's geometric mean", {}};
     chart.isLogarithmic = true;
     LineSeries points{"geometric mean of participants", {}};
     points.isDrawnThrough = false;
     double middle = 0.0;
     for (const auto& [level, values] : relative) {
-        const Moments moments{values};
-        points.points.push_back(
-            {level,
-             {std::pow(10.0, moments.mean), std::pow(10.0, moments.mean - moments.halfInterval()),
-              std::pow(10.0, moments.mean + moments.halfInterval())}});
+        points.points.push_back({level, ChartValue::around(std::pow(10.0, meanOf(values)))});
         middle += std::log10(level) / static_cast<double>(relative.size());
     }
     std::vector<double> exponents;
@@ -309,7 +277,7 @@ std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& tria
         if (own.law.fault.empty()) exponents.push_back(own.law.exponent);
     if (!exponents.empty() && !points.points.empty()) {
         const double exponent = meanOf(exponents);
-        LineSeries law{"power law, exponent " + fixedNumber(exponent, 3), {}};
+        LineSeries law{"mean power law", {}};
         law.isMarked = false;
         law.style = 4;
         for (const double level : {points.points.front().x, points.points.back().x}) {

@@ -31,10 +31,8 @@ std::string countsChart(ChartFrame frame, const PercentCounts& counts);
 /// Counts of the largest merged grid, with its size in the title. Precondition: such a grid was found.
 std::string mergedChart(ChartFrame frame, const ConditionResolution& one);
 
-/// One bar per alternative and summary, which have the same alternatives: the mean of the participants'
-/// shares, or their median.
-std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries,
-                        bool ofMedians = false);
+/// One bar per alternative and summary: the mean of the participants' shares.
+std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries);
 
 /// Mean scores of conditions, one series per scale. `points`: scores are from 1 to so many; 0: from 0.
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
@@ -58,7 +56,6 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
 /// Axis labels of the fitted levels and answers.
 struct FitWords {
     std::string level = "level (dB)", answer = "correct";
-    std::string unit() const { return level == FitWords{}.level ? "dB" : "the unit of " + level; }
     /// What the level of one half is; `choice=left` of two has no right answer.
     const char* half(const PsychometricModel& model) const {
         return model.guess > 0.0                  ? "threshold"
@@ -71,17 +68,13 @@ struct FitWords {
 FitWords fitWords(std::span<const ColumnName> columns, const std::string& level = {},
                   const std::string& measure = {});
 
-/// Decimals that show two digits of such a JND; at least two. Any thread.
-int decimalsOf(double jnd) noexcept;
-
 // SVG. Participants without a fit are omitted. Any thread (allocates).
 
-/// `told`: the threshold of the method that chose the levels, shown in place of those of the fits. `leftOut`
-/// gets those without a function, whose trials are not shown unless nobody has one.
+/// `told`: the threshold of the method that chose the levels, shown in place of those of the fits. Trials of
+/// who has no function are not shown unless nobody has one.
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                               const PsychometricModel& model, const FitWords& words,
-                              const LevelSummary* told = nullptr,
-                              std::vector<std::string>* leftOut = nullptr);
+                              const LevelSummary* told = nullptr);
 std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                           const std::string& levelWords);
 

@@ -65,25 +65,12 @@ std::string analysisNotebook(const std::string& study) {
 std::vector<std::string> testsIn(const std::string& table) {
     std::vector<std::string> tests;
     const auto read = readCsvTable(table, testsTable);
-    const auto test = read.value.column("test"), p = read.value.column("p");
+    const auto test = read.value.column("test"), kind = read.value.column("kind");
     for (const CsvRow& row : read.value.rows)
-        if (test && p && !row.cells[*p].empty() && std::ranges::find(tests, row.cells[*test]) == tests.end())
+        if (test && kind && row.cells[*kind] == "test" &&
+            std::ranges::find(tests, row.cells[*test]) == tests.end())
             tests.push_back(row.cells[*test]);
     return tests;
-}
-
-std::vector<std::string> notMadeIn(const std::string& table) {
-    std::vector<std::string> lines;
-    const auto read = readCsvTable(table, testsTable);
-    const auto test = read.value.column("test"), effect = read.value.column("effect"),
-               statistic = read.value.column("statistic"), p = read.value.column("p"),
-               note = read.value.column("note");
-    for (const CsvRow& row : read.value.rows)
-        if (test && effect && statistic && p && note && row.cells[*p].empty() &&
-            row.cells[*statistic] != "note")
-            lines.push_back("Not made: " + row.cells[*test] + ", " + row.cells[*effect] + ": " +
-                            row.cells[*note]);
-    return lines;
 }
 
 std::string keptScriptFault(const std::filesystem::path& path) {

@@ -11,10 +11,9 @@
 
 namespace physvib {
 
-/// The script beside a report's tables, and what it writes: a line per figure, and the same in words.
+/// The script beside a report's tables, and what it writes: a line per figure.
 inline constexpr const char *analysisScriptName = "analysis.R", *notebookName = "analysis.qmd";
 inline constexpr const char* testsTable = "tests.csv";
-inline constexpr const char* testsWords = "tests.txt";
 /// Of stimuli in pairs: mean scores as a matrix, and a map of them.
 inline constexpr const char *pairsTable = "similarity.csv", *mapTable = "mds.csv";
 
@@ -35,11 +34,8 @@ std::string analysisScript(const std::string& study, const std::vector<std::stri
 /// A notebook of its steps, for Quarto or R Markdown. Any thread (allocates).
 std::string analysisNotebook(const std::string& study);
 
-/// Names of the tests in testsTable that have a p, each once. Any thread (allocates).
+/// Names of the tests in testsTable, each once. Any thread (allocates).
 std::vector<std::string> testsIn(const std::string& table);
-
-/// Of the same table each effect that was not tested, and why. Any thread.
-std::vector<std::string> notMadeIn(const std::string& table);
 
 /// Why the file there must not be replaced by a new script or notebook: it is none of ours, or was edited.
 /// Empty if it may be. Message thread only.

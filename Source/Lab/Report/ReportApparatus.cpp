@@ -2,14 +2,11 @@
 // Report sections on what the rows of the trials say, whatever the protocol says: apparatus, levels and
 // exposure, orders of conditions.
 #include "Io/Text/CsvText.h"
-#include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Report/BidsDataset.h"
-#include "Lab/Report/ProtocolWords.h"
 #include "Lab/Report/ReportBuilder.h"
-#include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <array>
@@ -29,43 +26,6 @@ struct Felt {
 
 /// Key: device, master level, noise and version.
 using Kinds = std::map<std::vector<std::string>, Felt>;
-
-bool isNoise(const std::string& cell) { return cell != columns::noNoise && !cell.empty(); }
-
-std::vector<std::string> sentencesOf(const Kinds& kinds) {
-    std::vector<std::string> sentences;
-    for (const auto& [kind, felt] : kinds) {
-        const bool hasNoise = isNoise(kind[2]);
-        const std::string trials = counted(felt.trials, "trial");
-        if (kind[0].starts_with("None:")) {
-            sentences.push_back(trials + " had no device: nobody felt anything.");
-            continue;
-        }
-        sentences.push_back(
-            (felt.known == felt.trials
-                 ? trials + " left through the device " + kind[0] + ", every part within 1 dB of its plan,"
-                 : trials + " named the device " + kind[0] + ", but whether all parts left is known of " +
-                       std::to_string(felt.known) + " alone;") +
-            " at a master level of " + kind[1] + " dB, " +
-            (hasNoise ? "with pink noise of " + kind[2] + " dB of full scale (root mean square)"
-                      : std::string{"without pink noise"}) +
-            "; " +
-            (felt.limited > 0 ? "the limiter lowered " + std::to_string(felt.limited) +
-                                    " of them, by at most " + fixedNumber(felt.mostLimitedDb, 1) + " dB."
-                              : std::string{"the limiter lowered none of them."}));
-    }
-    return sentences;
-}
-
-/// The noise level at the ear is not in the rows; it comes from a microphone measurement.
-void tellNoise(ReportBuilder& report, const Kinds& kinds) {
-    const std::string& noise = report.trials.facts.noise;
-    if (!noise.empty())
-        report.page.paragraph("Noise: " + noise);
-    else if (std::ranges::any_of(kinds, [](const auto& kind) { return isNoise(kind.first[2]); }))
-        report.page.note(
-            "to be filled in: the noise as the participants heard it, e.g. its level in dB(A) (--noise)");
-}
 
 } // namespace
 
@@ -88,20 +48,18 @@ void tellApparatus(ReportBuilder& report) {
         felt.limited += db > 0.05 ? 1 : 0;
         felt.mostLimitedDb = std::max(felt.mostLimitedDb, db);
     }
-    if (unknown > 0)
-        report.page.note(std::to_string(unknown) +
-                         " trials do not say on which device, at which level and with which noise they were "
-                         "felt: nothing is claimed about that");
-    if (kinds.empty()) return tellNoise(report, kinds);
-    ExportTable table{"apparatus", report.isSimulated(),
-                      "device,master_db,noise_db,version,trials,trials_with_the_limiter,most_limiter_db"};
+    if (unknown > 0) report.page.note(counted(unknown, "trial") + " without a record of device and levels");
+    if (kinds.empty()) return;
+    ExportTable table{
+        "apparatus", report.isSimulated(),
+        "device,master_db,noise_db,version,trials,trials_known_to_leave,trials_with_the_limiter,most_"
+        "limiter_db"};
     for (const auto& [kind, felt] : kinds) {
         for (const std::string& word : kind) table.cell(word);
-        table.row(felt.trials, felt.limited, felt.mostLimitedDb);
+        table.row(felt.trials, felt.known, felt.limited, felt.mostLimitedDb);
     }
     report.addTable("apparatus.csv", table.text());
-    for (const std::string& sentence : sentencesOf(kinds)) report.page.paragraph(sentence);
-    tellNoise(report, kinds);
+    report.page.table(table.text(), "apparatus.csv");
 }
 
 // Report section on levels and exposure, from the columns level_db, peak_g, rms_g and a8_m_per_s2.
@@ -114,32 +72,6 @@ std::vector<double> numbersOf(std::string_view cell) {
     while (!cell.empty())
         if (const auto number = parseNumber<double>(takeUntil('|', cell))) numbers.push_back(*number);
     return numbers;
-}
-
-/// A sentence on a column of the table of tellDoses(), followed by a space.
-std::string meaningOf(std::string_view column, const Moved& all) {
-    if (column == "level_db") {
-        std::string words = "level_db: ";
-        for (const auto& [moved, conditions] : all)
-            words.append(words.size() > 10 ? "; " : "")
-                .append(all.size() > 1 ? "of " + listed(conditions) + " " : std::string{})
-                .append(isLevelItself(moved) ? "what {level_db} is in the call"
-                        : moved.empty()
-                            ? "in dB of the condition's own level, of what its variable is at 0 dB, or of a "
-                              "call's full scale"
-                            : "in dB of " + listed(moved) + " at 0 dB (a ratio: 20 dB is 10 times as much)");
-        return words + "; where participants set a level, that at the start. ";
-    }
-    const std::string words{column};
-    return words + ": " + columnMeaning(column) + (column == trialColumns::peakG ? ", in g. " : ". ");
-}
-
-/// How the columns in g come about.
-std::string chainOf(const ReportTrials& trials) {
-    if (trials.protocol) return levelChain(*trials.protocol, "as the program counted them when they left");
-    return "Levels in g are samples as the program counted them when they left, times a full scale that is "
-           "assumed, as the "
-           "layouts are not known here: no accelerometer measured them.";
 }
 
 /// Numbers of a column by condition and session; `isFine`: and by stimulus and part.
@@ -178,8 +110,7 @@ void tellDoses(ReportBuilder& report) {
     const CsvTable& all = report.trials.all;
     ExportTable table{"levels-and-exposure", report.isSimulated(),
                       "condition,session,measure,values,least,mean,most"};
-    std::string meanings;
-    const auto moved = report.trials.protocol ? movedIn(*report.trials.protocol) : Moved{{}};
+    std::vector<std::string> meanings;
     for (const std::string& column : all.columns) {
         if (column != "level_db" && !trialColumns::isMeasured(column)) continue;
         const auto values = levelsIn(all, column, false);
@@ -187,7 +118,7 @@ void tellDoses(ReportBuilder& report) {
                 return std::ranges::all_of(v.second, [](double db) { return db == 0.0; });
             }))
             continue;
-        if (!values.empty()) meanings += meaningOf(column, moved);
+        if (!values.empty()) meanings.push_back(column + ": " + columnMeaning(column));
         for (const auto& [key, own] : values) {
             // means of adaptive levels and accumulated exposure have no meaning
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
@@ -196,21 +127,12 @@ void tellDoses(ReportBuilder& report) {
                       *std::ranges::max_element(own));
         }
     }
-    if (meanings.empty() && std::ranges::any_of(all.rows, [cell = Cells{all}](const CsvRow& row) {
-            return cell(row, columns::render).empty() ||
-                   answerOf(cell(row, columns::task)) == AnswerKind::level;
-        }))
-        return;
+    if (meanings.empty()) return;
     report.page.subheading("Levels and exposure");
-    if (meanings.empty())
-        return report.page.paragraph("Every trial had the level of its call; nobody measured what was felt.");
     report.addTable("levels-and-exposure.csv", table.text());
-    if (meanings.find(trialColumns::peakG) != std::string::npos) meanings += chainOf(report.trials) + " ";
-    report.page.paragraph(meanings.substr(0, meanings.size() - 1));
+    report.page.list(meanings);
     report.page.table(table.text(), "levels-and-exposure.csv");
     tellStimuli(report);
-    if (meanings.find(trialColumns::exposure) == std::string::npos)
-        report.page.note("exposure was not measured in these trials");
 }
 
 // Report section on the condition orders as run.
@@ -241,21 +163,28 @@ void tellOrders(ReportBuilder& report) {
     // rows of other programs may be sorted, so their order is unknown
     if (!report.trials.knowTasks() || !report.trials.all.column("trial")) return;
     const Orders orders = ordersOf(report.trials.all);
-    std::vector<std::vector<std::string>> each;
-    for (const auto& [participant, order] : orders) each.push_back(order);
-    const OrderBalance balance = orderBalance(each);
-    if (balance.possibleSuccessions == 0) return;
+    std::map<std::string, std::map<std::size_t, std::size_t>> counts; // of a condition by its place
+    std::size_t most = 0;
+    for (const auto& [participant, order] : orders) {
+        most = std::max(most, order.size());
+        for (std::size_t place = 0; place < order.size(); ++place) ++counts[order[place]][place];
+    }
+    if (most < 2) return;
+    std::string header = "condition";
+    for (std::size_t place = 1; place <= most; ++place) header += ",place " + std::to_string(place);
+    ExportTable balance{"orders", report.isSimulated(), header};
+    for (auto& [condition, places] : counts) {
+        balance.cell(condition);
+        for (std::size_t place = 0; place < most; ++place) balance.cell(places[place]);
+        balance.endRow();
+    }
     ExportTable table{"orders", report.isSimulated(), "participant,place,condition"};
     for (const auto& [participant, order] : orders)
         for (std::size_t place = 0; place < order.size(); ++place)
             table.row(participant, place + 1, order[place]);
     report.addTable("orders.csv", table.text());
     report.page.subheading("Orders of the conditions");
-    report.page.paragraph(
-        "A condition was at one place of the order " + std::to_string(balance.fewestAtPlace) +
-        (balance.mostAtPlace > balance.fewestAtPlace ? " to " + std::to_string(balance.mostAtPlace) : "") +
-        " times; " + std::to_string(balance.successions) + " of " +
-        std::to_string(balance.possibleSuccessions) + " successions of two conditions occurred.");
+    report.page.table(balance.text(), "participants by place");
     report.page.table(table.text(), "orders.csv", 200, true);
 }
 

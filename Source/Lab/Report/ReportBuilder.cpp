@@ -8,21 +8,6 @@
 #include <set>
 
 namespace physvib {
-namespace {
-
-/// Shortens text that is longer than a page.
-std::string shortened(const std::string& words, const std::string& table) {
-    constexpr std::size_t mostLines = 48, keptLines = 24;
-    const auto lines = static_cast<std::size_t>(std::ranges::count(words, '\n'));
-    if (lines <= mostLines) return words;
-    std::size_t end = 0;
-    for (std::size_t i = 0; i < keptLines; ++i) end = words.find('\n', end) + 1;
-    return words.substr(0, end) + "... and " + std::to_string(lines - keptLines) + " lines more: " + table +
-           "\n";
-}
-
-} // namespace
-
 ReportBuilder::ReportBuilder(const ReportTrials& of, std::string title)
     : trials{of}
     , page{std::move(title), of.isSimulated} {}
@@ -58,8 +43,10 @@ std::string ReportBuilder::said(const std::string& words) const {
 
 void ReportBuilder::warn(const std::vector<std::string>& warnings) {
     std::vector<std::string> fresh;
+    const std::string counted = std::string{trialsTable} + ": left out: "; // left-out.csv has them
     for (const std::string& words : warnings)
-        if (std::ranges::find(warned_, words) == warned_.end()) fresh.push_back(said(words));
+        if (!words.starts_with(counted) && std::ranges::find(warned_, words) == warned_.end())
+            fresh.push_back(said(words));
     warned_.insert(warned_.end(), warnings.begin(), warnings.end());
     page.notes(fresh);
 }
@@ -68,11 +55,12 @@ AnalysisReport ReportBuilder::analysis(const std::string& kind, const AnalysisJo
                                        const std::string& name) {
     AnalysisReport report = analyse(kind, options);
     warn(report.warnings);
-    if (!report.words.empty()) page.lines(shortened(report.words, name));
-    if (!report.error.empty())
+    if (!report.error.empty()) {
         tellFault(report.error);
-    else
-        tables_[name] = report.table;
+        return report;
+    }
+    page.table(report.summary, name);
+    tables_[name] = report.table;
     return report;
 }
 

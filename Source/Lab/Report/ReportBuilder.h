@@ -7,7 +7,7 @@
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Report/ReportPage.h"
 #include "Lab/Report/ReportTrials.h"
-#include "Lab/Study/ThesisDeviations.h"
+#include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <cstddef>
 #include <map>
@@ -27,35 +27,16 @@ public:
     ReportPage page;
     std::vector<std::string> scales; ///< columns of ratings that can be read
     std::string half{};              ///< what the page calls the level of a half
-    std::string functions{};         ///< "logistic, with ...", of those that are fitted
+    std::string functions{};         ///< "logistic, guess rate ...", of those that are fitted
     bool isSimulated() const noexcept { return trials.isSimulated; }
 
     /// Number of participants in the rows, by the column participant; 1 without it.
     std::size_t people() const;
 
-    /// ", 95 % intervals over participants", if there are several; of one, `overTrials` or none.
-    std::string intervals(bool overTrials = false) const {
-        return people() > 1 ? ", 95 % intervals over participants"
-               : overTrials ? ", 95 % intervals over trials, of one participant"
-                            : ", of one participant without intervals";
-    }
-
-    /// Of a version NAME-thesis.
-    bool isAsPublished() const { return trials.protocol && trials.protocol->name.ends_with(thesisSuffix); }
-
-    /// " (as thesis Fig. 4.4)" in the report of one of the thesis' own studies, else empty.
-    std::string asThesis(std::string_view figure) const {
-        std::string_view name = trials.protocol ? trials.protocol->name : std::string_view{};
-        if (isAsPublished()) name.remove_suffix(thesisSuffix.size());
-        return std::ranges::find(thesisDeviations, name, &ThesisDeviation::protocol) != thesisDeviations.end()
-                   ? " (as thesis " + std::string{figure} + ")"
-                   : std::string{};
-    }
-
     /// Of an analysis of all trials.
     AnalysisJob options() const {
         AnalysisJob job;
-        job.files = {trialsTable}, job.made = &tables_;
+        job.files = {trialsTable}, job.made = &tables_, job.protocol = trials.protocol;
         return job;
     }
 
@@ -68,7 +49,8 @@ public:
         return reader(std::span{&file, 1}, how...);
     }
 
-    /// Runs an analysis: warnings and text go to the page, its table to `name`. `error` is empty on success.
+    /// Runs an analysis: what it shows and what it left out go to the page, its table to `name`. `error` is
+    /// empty on success.
     AnalysisReport analysis(const std::string& kind, const AnalysisJob& options, const std::string& name);
 
     /// What a reader says of the table of all trials, with the trial's participant, condition and stimulus in
@@ -89,6 +71,21 @@ private:
     std::vector<std::string> warned_;
     int charts_ = 0;
 };
+
+/// ", n = 12", or ", n = 9 to 12", of what a figure shows.
+inline std::string ofPeople(const std::vector<std::size_t>& counts) {
+    const auto [fewest, most] = std::ranges::minmax_element(counts);
+    if (counts.empty()) return {};
+    return ", n = " + std::to_string(*fewest) + (*fewest < *most ? " to " + std::to_string(*most) : "");
+}
+
+/// How many people gave the trials of each condition.
+template <class Condition>
+std::string ofPeopleIn(const std::vector<Condition>& conditions) {
+    std::vector<std::size_t> counts;
+    for (const Condition& one : conditions) counts.push_back(byParticipant(one.trials).size());
+    return ofPeople(counts);
+}
 
 // Cells of a report's rows by the names of their columns.
 
@@ -111,7 +108,7 @@ private:
 // The sections of a report, in order.
 
 void tellParticipants(ReportBuilder& report); ///< numbers of trials, exclusions, ethics and consent
-void tellProcedure(ReportBuilder& report); ///< protocol in sentences, calls of the stimuli, levels, exposure
+void tellProcedure(ReportBuilder& report); ///< the protocol's fields, calls of the stimuli, levels, exposure
 void tellApparatus(ReportBuilder& report); ///< device, levels, noise and limiter as recorded in the rows
 void tellTimes(ReportBuilder& report);  ///< dates, breaks, resumes and outputs, if files of times are there
 void tellOrders(ReportBuilder& report); ///< condition orders as run
@@ -119,20 +116,16 @@ void tellDoses(ReportBuilder& report);  ///< levels and exposure, by condition a
 void tellProvenance(ReportBuilder& report); ///< versions, seeds, files
 
 // Results; each section is for trials of one kind of task.
-void tellIdentification(ReportBuilder& report); ///< thesis Fig. 3.11, 3.12, 4.2 to 4.4
-void tellPlaces(ReportBuilder& report);         ///< Fig. 4.6 to 4.9, Table 4.1
+void tellIdentification(ReportBuilder& report); ///< percent correct, information transfer, confusions
+void tellPlaces(ReportBuilder& report);         ///< targets on a grid: responses, territories, percent counts
 void tellPlaceErrors(ReportBuilder& report);    ///< targets without a grid: constant and variable error
-void tellChoices(ReportBuilder& report);        ///< Fig. 5.8, 5.9
-void tellRatings(ReportBuilder& report);        ///< Fig. 5.13, 5.14
+void tellChoices(ReportBuilder& report);        ///< shares of alternatives
+void tellRatings(ReportBuilder& report);        ///< scores of scales
 void tellLevels(ReportBuilder& report); ///< staircases, adjustments, magnitudes; psychometric functions
 /// A chart of each condition's answers, and functions if somebody has one, in the table `name`.
 void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, AnalysisJob fit,
                    const std::string& name);
 /// Counts answers in words by stimulus; true if there are any.
 bool tellDescriptions(ReportBuilder& report);
-
-/// "P01 began at ...": from the columns time_utc, event, language, outputs and noise_outputs. Precondition:
-/// there are moments. Any thread (allocates).
-std::string timesSentence(const std::string& participant, const std::vector<StudyMoment>& moments);
 
 } // namespace physvib

@@ -36,10 +36,8 @@ void tellFits(ReportBuilder& report) {
 void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials,
                     const std::vector<LevelSummary>& summaries) {
     std::vector<std::string> charts;
-    std::string without;
     PsychometricModel model;
     model.guess = guessOf(report.trials);
-    bool isOfMany = false;
     for (const LevelSummary& s : summaries) {
         if (s.thresholds.empty()) continue;
         std::vector<LevelAnswer> own;
@@ -47,41 +45,46 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
             if (t.kind == s.kind && t.condition == s.condition)
                 own.push_back({t.participant, t.levelDb, t.value});
         charts.push_back(psychometricChart(
-            report.frame(s.condition + (s.kind == LevelTrial::Kind::quest ? " by QUEST+" : " by staircase")),
+            report.frame(s.condition + (s.kind == LevelTrial::Kind::quest ? " by QUEST+" : " by staircase") +
+                         ", n = " + std::to_string(s.thresholds.size())),
             own, model, FitWords{}, &s));
-        isOfMany |= s.participants > 1;
-        for (const auto& [who, answers] : byParticipant(own))
-            if (std::ranges::find(s.thresholds, who, &std::pair<std::string, double>::first) ==
-                s.thresholds.end())
-                without += (without.empty() ? "" : ", ") + inSession(who, s.condition);
     }
-    if (charts.empty()) return;
-    report.page.subheading("Answers by level");
-    report.page.figure(
-        charts, std::string{"Share of answers \u201ccorrect\u201d by level (dB). Circles: "} +
-                    (report.people() > 1 ? "all participants' " : "") +
-                    "trials, larger where there were more. Dotted: " +
-                    (isOfMany ? "mean threshold, shaded its 95 % interval over participants" : "threshold") +
-                    (without.empty() ? "" : ", without " + without) + " (levels.csv).");
+    const auto isOf = [&](LevelTrial::Kind kind) {
+        return std::ranges::count(summaries, kind, &LevelSummary::kind) > 0;
+    };
+    if (!charts.empty())
+        report.page.figure(
+            charts,
+            std::string{
+                "Share of correct answers by level, of all trials. Circles: area by number of trials. "
+                "Dotted: mean threshold of the n participants who have one."} +
+                (isOf(LevelTrial::Kind::staircase)
+                     ? " Threshold of a staircase: mean of the later half of its reversals."
+                     : "") +
+                (isOf(LevelTrial::Kind::quest)
+                     ? " Threshold by QUEST+: mean of its posterior, widths of all participants together."
+                     : ""));
 }
 
-void tellMagnitudes(ReportBuilder& report) {
+void tellMagnitudes(ReportBuilder& report, const std::vector<LevelSummary>& summaries) {
     report.page.subheading("Power law");
     const auto data = report.read(readLevelAnswers, LevelAnswerColumns{"stimulus", "value", true});
-    if (!data) return report.page.note("no power law is fitted: " + report.said(data.error));
-    const auto words = report.analysis("power-law", report.options(), "power-law.csv");
-    if (!words.error.empty()) return;
+    if (!data) return report.tellFault(data.error);
+    if (!report.analysis("power-law", report.options(), "power-law.csv").error.empty()) return;
     std::vector<std::string> charts;
+    std::vector<std::size_t> people;
+    for (const LevelSummary& one : summaries)
+        if (one.kind == LevelTrial::Kind::magnitude) people.push_back(one.participants);
     for (const auto& condition : data.value.conditions)
         charts.push_back(powerLawChart(report.frame(condition.name.empty() ? "Magnitudes" : condition.name),
-                                       condition.trials, "level"));
-    report.page.figure(charts, "Magnitude estimations: geometric means" + report.intervals() +
-                                   ", and the mean power law, both axes logarithmic. Each participant's "
-                                   "numbers are divided by their own geometric mean in that condition first" +
-                                   (charts.size() > 1 ? ": conditions cannot be compared here." : "."));
+                                       condition.trials, "stimulus"));
+    report.page.figure(charts,
+                       "Geometric mean magnitudes, each divided by its participant's geometric mean in "
+                       "the condition, and mean power law" +
+                           ofPeople(people) + ". Both axes are logarithmic.");
 }
 
-/// Warns about adjustments at the end of their range, which may have been limited by it.
+/// Adjustments at an end of their range.
 void tellEndsOfRanges(ReportBuilder& report) {
     const Cells cell{report.trials.all};
     if (!report.trials.protocol) return;
@@ -93,11 +96,9 @@ void tellEndsOfRanges(ReportBuilder& report) {
             ++trials;
             atEnd += db && (*db <= plan.adjustment->leastDb || *db >= plan.adjustment->mostDb);
         }
-        if (atEnd == 0) continue;
-        report.page.note(std::to_string(atEnd) + " of " + std::to_string(trials) + " levels of the session " +
-                         plan.name + " were set to an end of their range, " +
-                         numberText(plan.adjustment->leastDb) + " to " + numberText(plan.adjustment->mostDb) +
-                         " dB: the match may lie beyond it");
+        if (atEnd > 0)
+            report.page.note(std::to_string(atEnd) + " of " + std::to_string(trials) + " levels of " +
+                             plan.name + " were set to an end of their range");
     }
 }
 
@@ -119,79 +120,70 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
     fit.columns = report.trials.columns; // whose words it uses
     report.page.subheading("Psychometric functions");
     const bool isFitted = report.analysis("psychometric", fit, name).error.empty();
+    if (isFitted) report.page.table(report.tableText(name), name, 200, true);
     const FitWords words = fitWords(report.trials.columns, fit.level, fit.measure);
     const PsychometricModel& model = fit.model;
-    const std::string half = report.half = words.half(model);
+    report.half = words.half(model);
     report.functions =
-        std::string(psychometricShapeNames[static_cast<std::size_t>(model.shape)]) + ", with " +
-        (model.guess > 0.0
-             ? "a guess rate of " + numberText(std::round(1000.0 * model.guess) / 10.0) + " % and "
-             : "") +
-        "lapse rates of up to " + numberText(100.0 * model.mostLapses()) +
-        (model.guess > 0.0 ? " %" : " % at both ends, the same at each");
+        std::string(psychometricShapeNames[static_cast<std::size_t>(model.shape)]) +
+        (model.guess > 0.0 ? ", guess rate " + numberText(std::round(1000.0 * model.guess) / 10.0) + " %"
+                           : "") +
+        ", lapse rate up to " + numberText(100.0 * model.mostLapses()) + " %" +
+        (model.guess > 0.0 ? "" : " at both ends");
     std::vector<std::string> charts;
-    std::string without;
-    for (const auto& condition : data.conditions) {
-        std::vector<std::string> leftOut;
+    for (const auto& condition : data.conditions)
         charts.push_back(psychometricChart(
             report.frame(condition.name.empty() ? "Psychometric functions" : condition.name),
-            condition.trials, model, words, nullptr, &leftOut));
-        if (!leftOut.empty())
-            without += (without.empty() ? "" : "; ") + inSession(joined(leftOut, ", "), condition.name);
-    }
-    const std::string caption =
-        "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
-        ". Circles: " + (report.people() > 1 && without.empty() ? "all participants' trials" : "trials") +
-        (without.empty() ? "" : " of those who have a function, so not of " + without) +
-        ", larger where there were more";
-    if (!isFitted) return report.page.figure(charts, caption + ".");
+            condition.trials, model, words));
     report.page.figure(
         charts,
-        caption +
-            (report.people() > 1
-                 ? "; thin lines: the function of each participant who has one; thick: that of the mean " +
-                       half + " and of the mean of the widths that there are. Dotted: mean " + half +
-                       ", shaded its 95 % interval over participants where there are several. "
-                 : "; line: the function. Dotted: " + half + ". ") +
-            "The functions are " + report.functions +
-            ". The JND is half of what lies between a quarter and three quarters.");
+        "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
+            ". Circles: " + (isFitted ? "trials of who has a function" : "all trials") + ", area by number." +
+            (isFitted ? " Thin lines: participants' functions, " + report.functions + ". Thick: mean " +
+                            report.half + " and mean width. Dotted: mean " + report.half +
+                            ". JND: half of what lies between 0.25 and 0.75 of the function."
+                      : ""));
 }
 
 void tellLevels(ReportBuilder& report) {
     const Cells cell{report.trials.all};
-    const bool isOfNumbers = report.trials.knowTasks() && !hasAdaptiveRows(report.trials) &&
-                             std::ranges::none_of(report.trials.all.rows, [&](const CsvRow& row) {
-                                 return answerOf(cell(row, trialColumns::task)) == AnswerKind::level;
-                             });
-    report.page.heading(isOfNumbers ? "Magnitudes" : "Levels");
     if (!report.trials.knowTasks() && !report.trials.all.column("value")) {
-        report.page.note("the tables do not say how levels were chosen: functions are fitted to the answers, "
-                         "reversals are not looked for");
+        report.page.heading("Answers by level");
         return tellFits(report);
     }
-    AnalysisJob options = report.options();
-    options.protocol = report.trials.protocol;
+    const AnalysisJob options = report.options();
     const auto data = readFinishedLevels(options);
+    using Kind = LevelTrial::Kind;
+    const auto has = [&](Kind kind) {
+        return data && std::ranges::any_of(data.value.conditions.front().trials,
+                                           [=](const LevelTrial& trial) { return trial.kind == kind; });
+    };
+    const bool hasThresholds = has(Kind::staircase) || has(Kind::quest);
+    std::vector<std::string> kinds;
+    if (hasThresholds || !data) kinds.emplace_back("Thresholds");
+    if (has(Kind::adjustment)) kinds.emplace_back("Levels that were set");
+    if (has(Kind::magnitude)) kinds.emplace_back("Magnitudes");
+    report.page.heading(joined(kinds, ", "));
     if (!data) return report.tellFault(data.error);
     const auto& trials = data.value.conditions.front().trials;
-    const auto has = [&](LevelTrial::Kind kind) {
-        return std::ranges::any_of(trials, [=](const LevelTrial& trial) { return trial.kind == kind; });
-    };
     const auto words = report.analysis("levels", options, "levels.csv");
     if (!words.error.empty()) return;
     const auto summaries = summariseLevels(trials);
-    if (has(LevelTrial::Kind::staircase) || has(LevelTrial::Kind::quest))
-        report.addTable("thresholds.csv", words.participants);
+    if (hasThresholds) report.addTable("thresholds.csv", words.participants);
     tellEndsOfRanges(report);
     if (std::ranges::count(summaries, LevelTrial::Kind::adjustment, &LevelSummary::kind) > 1) {
         const auto reference = comparedLevel(report.trials);
+        std::vector<std::size_t> people;
+        for (const LevelSummary& one : summaries)
+            if (one.kind == Kind::adjustment) people.push_back(one.participants);
         report.page.figure(
             {levelChart(report.frame("Matched levels"), summaries, LevelTrial::Kind::adjustment, reference)},
-            "Levels that were set by adjustment: means" + report.intervals() +
-                (reference ? "; dashed: the level of " + reference->second : std::string{}) + ".");
+            "Mean level that was set" + ofPeople(people) +
+                (reference ? ". Dashed: level of " + reference->second : std::string{}) + ".");
     }
     tellThresholds(report, report.read(readLevels).value.conditions.front().trials, summaries);
-    if (has(LevelTrial::Kind::magnitude) && report.trials.all.column("stimulus")) tellMagnitudes(report);
+    if (has(LevelTrial::Kind::magnitude) && report.trials.all.column("stimulus"))
+        tellMagnitudes(report, summaries);
 }
 
 } // namespace physvib

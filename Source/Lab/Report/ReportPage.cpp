@@ -5,9 +5,9 @@
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
+#include "Lab/Analysis/Analysis.h"
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace physvib {
@@ -29,26 +29,41 @@ figure { margin: 1.4em 0; text-align: center; break-inside: avoid; } figure svg 
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; } }
 )";
 
-/// "2.7e-06".
-std::string shortPower(double number) {
-    char digits[32];
-    return {digits,
-            std::to_chars(digits, digits + sizeof digits, number, std::chars_format::scientific, 1).ptr};
-}
-
-/// Rounds to four significant digits; the table file has full precision.
-std::string cellWords(const std::string& cell) {
-    const auto number = parseNumber<double>(cell);
-    if (!number || cell.find_first_of(".e") == std::string::npos) return cell;
-    const double size = std::abs(*number);
-    if (size > 0.0 && size < 0.0005) return shortPower(*number);
-    return fixedNumber(*number, size >= 100.0 ? 1 : size >= 1.0 ? 2 : 4);
-}
+/// What a column of a table is called on a page; others are called as they are.
+constexpr std::pair<std::string_view, std::string_view> headings[] = {
+    {"participants_median_percent", "median (%)"},
+    {"percent", "mean share (%)"},
+    {"least_percent", "95 % interval, least (%)"},
+    {"most_percent", "95 % interval, most (%)"},
+    {"interval", "interval is"},
+    {"estimate", "mean"},
+    {"half_interval", "half of the 95 % interval (t)"},
+    {"mean_percent", "mean of participants (%)"},
+    {"percent_correct", "correct (%)"},
+    {"chance_percent", "chance (%)"},
+    {"it_bits", "IT (bit)"},
+    {"corrected_it_bits", "IT less Miller's bias (bit)"},
+    {"most_bits", "log2 of stimuli (bit)"},
+    {"fano_bits", "Fano's lower bound (bit)"},
+    {"mean_own_bits", "mean of participants' own IT (bit)"},
+    {"deviation_own_bits", "its SD (bit)"},
+    {"standard_deviation", "SD"},
+    {"df1", "df"},
+    {"df2", "df of the error"},
+    {"p_corrected", "corrected p"},
+    {"p_across", "p corrected across"},
+    {"across", "corrected across"},
+    {"effect_size", "effect size"},
+    {"size", "effect size is"},
+    {"interval_least", "95 % interval (t), least"},
+    {"interval_most", "95 % interval (t), most"}};
 
 /// Lets column names break after underscores.
 std::string headHtml(const std::string& column) {
+    const auto* const said = std::ranges::find(headings, std::string_view{column},
+                                               &std::pair<std::string_view, std::string_view>::first);
     std::string out = "<th>";
-    for (const char c : markup(column)) {
+    for (const char c : markup(said != std::end(headings) ? said->second : column)) {
         out += c;
         if (c == '_') out += "<wbr>";
     }
@@ -57,7 +72,7 @@ std::string headHtml(const std::string& column) {
 
 std::string cellHtml(const std::string& cell) {
     const bool isNumber = parseNumber<double>(cell).has_value();
-    return (isNumber ? "<td class=\"number\">" : "<td>") + markup(cellWords(cell)) + "</td>";
+    return (isNumber ? "<td class=\"number\">" : "<td>") + markup(shownCell(cell)) + "</td>";
 }
 
 } // namespace
@@ -66,9 +81,7 @@ ReportPage::ReportPage(std::string title, bool isSimulated, std::string mark)
     : title_{std::move(title)}
     , mark_{std::move(mark)}
     , isSimulated_{isSimulated} {
-    if (isSimulated_ && mark_.empty())
-        mark_ = "SIMULATED: a simulated observer answered, not a person. No figure here says anything about "
-                "people.";
+    if (isSimulated_ && mark_.empty()) mark_ = "SIMULATED: a simulated observer answered, not a person.";
 }
 
 void ReportPage::element(std::string_view tag, std::string_view words) {
@@ -97,26 +110,30 @@ void ReportPage::list(const std::vector<std::string>& items) {
     body_ += "</ul>\n";
 }
 
-void ReportPage::link(std::string_view file, std::string_view words) {
-    body_ += "<p><a href=\"" + markup(file) + "\">" + markup(file) + "</a> " + markup(words) + "</p>\n";
-}
-
 void ReportPage::table(std::string_view csv, std::string_view file, std::size_t mostRows, bool isFolded) {
+    const auto comments = csv.starts_with('#') ? 1 : 0;
+    if (std::ranges::count(csv, '\n') < comments + 2) return paragraph("none");
     const auto read = readCsvTable(csv, file);
     if (!read) return note(read.error);
+    const auto& [name, lines, columns, rows] = read.value;
+    const auto isEmpty = [&](std::size_t c) {
+        return std::ranges::all_of(rows, [c](const CsvRow& row) { return row.cells[c].empty(); });
+    };
     if (isFolded) body_ += "<details><summary>" + markup(file) + "</summary>\n";
     body_ += "<table>\n<tr>";
-    for (const std::string& column : read.value.columns) body_ += headHtml(column);
+    for (std::size_t c = 0; c < columns.size(); ++c)
+        if (!isEmpty(c)) body_ += headHtml(columns[c]);
     body_ += "</tr>\n";
-    for (std::size_t r = 0; r < std::min(mostRows, read.value.rows.size()); ++r) {
+    for (std::size_t r = 0; r < std::min(mostRows, rows.size()); ++r) {
         body_ += "<tr>";
-        for (const std::string& cell : read.value.rows[r].cells) body_ += cellHtml(cell);
+        for (std::size_t c = 0; c < columns.size(); ++c)
+            if (!isEmpty(c)) body_ += cellHtml(rows[r].cells[c]);
         body_ += "</tr>\n";
     }
     body_ += "</table>\n";
-    if (read.value.rows.size() > mostRows)
-        paragraph("and " + std::to_string(read.value.rows.size() - mostRows) + " more rows in " +
-                  std::string(file));
+    if (rows.size() > mostRows)
+        paragraph(std::to_string(mostRows) + " of " + std::to_string(rows.size()) +
+                  " rows: " + std::string(file));
     if (isFolded) body_ += "</details>\n";
 }
 

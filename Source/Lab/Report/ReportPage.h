@@ -20,12 +20,11 @@ public:
     void note(std::string_view words) { notes({std::string(words)}); }
     void lines(std::string_view words); ///< preformatted text, as `analyse` prints it
     void list(const std::vector<std::string>& items);
-    /// A table from CSV text with comments, of at most `mostRows` rows and a link to the rest. A folded table
-    /// opens on a click and is not printed.
+    /// A table from CSV text with comments, of at most `mostRows` rows and the columns that have a value. A
+    /// folded table opens on a click and is not printed.
     void table(std::string_view csv, std::string_view file, std::size_t mostRows = 60, bool isFolded = false);
     /// Charts side by side with one caption.
     void figure(const std::vector<std::string>& svgs, std::string_view caption);
-    void link(std::string_view file, std::string_view words);
 
     /// The complete file.
     std::string html() const;

@@ -67,30 +67,18 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
     return people;
 }
 
-/// Lists the deviations of a built-in protocol from the thesis.
-void tellDeviations(ReportPage& page, const Protocol& protocol) {
-    std::vector<std::string> lines;
-    for (const ThesisDeviation& one : deviationsOf(protocol))
-        lines.push_back(
-            std::string{one.section}.append(": ").append(one.thesis).append("; here: ").append(one.here));
-    if (lines.empty()) return;
-    page.subheading("Deviations from the thesis");
-    page.list(lines);
-}
-
 void tellProtocol(ReportPage& page, const Protocol& protocol) {
-    for (const std::string& sentence : protocolSentences(protocol)) page.paragraph(sentence);
-    page.subheading("Conditions");
     std::vector<std::string> conditions, sessions;
     for (const auto& one : protocol.conditions) conditions.push_back(conditionWords(one));
-    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session, protocol));
+    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session));
+    page.subheading("Protocol, by the fields of its file");
+    page.list({protocolWords(protocol)});
+    page.subheading("Conditions");
     page.list(conditions);
-    page.subheading("Sessions");
+    page.subheading("Sessions, each in each condition");
     page.list(sessions);
-    tellDeviations(page, protocol);
-    if (protocol.sounds.empty()) return;
-    page.subheading("Recorded contacts");
-    page.list(soundLines(protocol));
+    page.subheading("Full scale of the layouts");
+    page.list({fullScales(protocol)});
 }
 
 /// Lists every stimulus with its call; the page shows one example per condition and session.
@@ -114,10 +102,7 @@ void tellCalls(ReportBuilder& report) {
         table.row(condition, session, stimulus, trials, call);
     }
     report.addTable("stimuli.csv", table.text());
-    report.page.subheading("How stimuli were made");
-    report.page.paragraph(
-        "Each of these calls of physvib renders a stimulus again; one of each condition and session, all " +
-        std::to_string(calls.size()) + " in stimuli.csv:");
+    report.page.subheading("Calls of the stimuli: one of each condition and session (all: stimuli.csv)");
     for (const auto& [key, call] : examples) {
         std::string lines;
         for (std::size_t from = 0; from < call.size();) {
@@ -129,67 +114,43 @@ void tellCalls(ReportBuilder& report) {
     }
 }
 
-/// "6 female, 5 male, 1 not known"; empty where nothing is known.
-std::string countsOf(const std::map<std::string, std::size_t>& counts) {
-    std::string words;
-    for (const auto& [word, number] : counts)
-        if (!word.empty())
-            words.append(words.empty() ? "" : ", ").append(std::to_string(number)).append(" ").append(word);
-    if (counts.contains("") && !words.empty()) words += ", " + std::to_string(counts.at("")) + " not known";
-    return words;
-}
-
-/// The facts given by the user on participants whose trials count; missing ones as reminders.
+/// What is known of those whose trials count: a table of numbers.
 void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, Attended>>& attended) {
     const StudyFacts& facts = report.trials.facts;
-    std::vector<const PersonFacts*> people;
     std::vector<double> ages;
-    std::vector<std::string> notes;
-    std::size_t strangers = 0;
+    std::map<std::string, std::map<std::string, std::size_t>> counts; // of sex, handedness and group
+    std::size_t analysed = 0;
     for (const auto& [code, own] : attended) {
-        const PersonFacts* const person = facts.person(code);
-        strangers += person == nullptr;
-        if (person == nullptr && !facts.people.empty())
-            notes.push_back("nothing is known of participant " + code + ": no line in the table of people");
-        if (person == nullptr || !person->excluded.empty()) continue;
-        people.push_back(person);
-        if (person->ageYears) ages.push_back(*person->ageYears);
+        if (facts.isExcluded(code)) continue;
+        ++analysed;
+        const PersonFacts* const known = facts.person(code);
+        const PersonFacts person = known != nullptr ? *known : PersonFacts{};
+        if (person.ageYears) ages.push_back(*person.ageYears);
+        ++counts["sex"][person.sex], ++counts["handedness"][person.handedness];
+        if (own.main > 0) ++counts["group"][own.group.empty() ? person.group : own.group];
     }
+    ExportTable table{"sample", report.isSimulated(), "of,value,participants"};
+    table.row("participants", "", attended.size());
+    table.row("participants who are not excluded", "", analysed);
+    if (const Moments age{ages}; !ages.empty()) {
+        table.row("age, mean (years)", fixedNumber(age.mean, 1), ages.size());
+        if (ages.size() > 1) table.row("age, SD (years)", fixedNumber(age.deviation, 1), ages.size());
+        table.row("age, least (years)", numberText(*std::ranges::min_element(ages)), ages.size());
+        table.row("age, most (years)", numberText(*std::ranges::max_element(ages)), ages.size());
+    }
+    for (const auto& [name, all] : counts)
+        if (all.size() > 1 || !all.contains(""))
+            for (const auto& [value, number] : all)
+                table.row(name, value.empty() ? "not known" : value, number);
+    for (const auto& [name, words] :
+         {std::pair{"ethics", facts.ethics}, {"consent", facts.consent}, {"noise at the ear", facts.noise}})
+        if (!report.isSimulated() || !words.empty())
+            table.row(name, words.empty() ? "not stated" : words, "");
+    report.page.table(table.text(), "sample");
     for (const PersonFacts& person : facts.people)
         if (std::ranges::find(attended, person.participant, &std::pair<std::string, Attended>::first) ==
             attended.end())
-            notes.push_back("participant " + person.participant +
-                            " of the table of people has no trials here");
-    std::map<std::string, std::size_t> groups;
-    for (const auto& [code, own] : attended) // in rows, or in the table of people
-        if (const auto* const person = facts.person(code); !facts.isExcluded(code) && own.main > 0)
-            ++groups[own.group.empty() && person ? person->group : own.group];
-    if (const std::string words = countsOf(groups); !words.empty())
-        report.page.paragraph("Groups: " + words + ".");
-    const Moments moments{ages};
-    if (!ages.empty())
-        report.page.paragraph(
-            (ages.size() == 1 ? "Age: " + numberText(ages.front()) + " years ("
-                              : "Age: mean " + fixedNumber(moments.mean, 1) + " years, standard deviation " +
-                                    fixedNumber(moments.deviation, 1) + ", " +
-                                    numberText(*std::ranges::min_element(ages)) + " to " +
-                                    numberText(*std::ranges::max_element(ages)) + " (") +
-            std::to_string(ages.size()) + " of " + std::to_string(people.size() + strangers) + " known).");
-    for (const auto& [name, field] :
-         {std::pair{"Sex: ", &PersonFacts::sex}, {"Handedness: ", &PersonFacts::handedness}}) {
-        std::map<std::string, std::size_t> counts;
-        if (strangers > 0) counts[""] = strangers;
-        for (const PersonFacts* const person : people) ++counts[person->*field];
-        if (const std::string words = countsOf(counts); !words.empty())
-            report.page.paragraph(name + words + ".");
-    }
-    if (!facts.ethics.empty()) report.page.paragraph("Ethics: " + facts.ethics);
-    if (!facts.consent.empty()) report.page.paragraph("Consent: " + facts.consent);
-    if (facts.people.empty())
-        notes.emplace_back("to be filled in: age, sex and handedness of the participants (--people)");
-    if (facts.ethics.empty()) notes.emplace_back("to be filled in: approval by an ethics board (--ethics)");
-    if (facts.consent.empty()) notes.emplace_back("to be filled in: consent of the participants (--consent)");
-    if (!report.isSimulated() || !facts.people.empty()) report.page.notes(notes);
+            report.page.note("participant " + person.participant + " of the table of people: no trials");
 }
 
 /// The number chooses the orders: people who share one had the same.
@@ -198,9 +159,7 @@ void tellSameNumbers(ReportPage& page, const std::vector<std::pair<std::string, 
     for (const auto& [code, own] : people)
         if (!own.number.empty()) codes[own.number].push_back(code);
     for (const auto& [number, same] : codes)
-        if (same.size() > 1)
-            page.note("participants " + listed(same) + " have the same number, " + number +
-                      ": they had the same orders, which nothing balances");
+        if (same.size() > 1) page.note("participants " + listed(same) + " have the same number, " + number);
 }
 
 } // namespace
@@ -230,70 +189,54 @@ void tellParticipants(ReportBuilder& report) {
         if (!facts.isExcluded(code)) most = std::max(most, own.main);
     }
     report.addTable("participants.csv", table.text());
-    const auto analysed = static_cast<std::size_t>(
-        std::ranges::count_if(people, [&](const auto& one) { return !facts.isExcluded(one.first); }));
-    report.page.paragraph(counted(people.size(), "participant") + " in " +
-                          counted(report.trials.files.size(), "file") +
-                          (analysed < people.size() ? "; the table below is of all, everything else of the " +
-                                                          std::to_string(analysed) + " who are not excluded."
-                                                    : "."));
     for (const std::string& note : report.trials.notes) report.page.note(note);
     tellFacts(report, people);
-    if (people.size() == 1)
-        report.page.note("one participant: intervals and tests over participants are not possible, and "
-                         "nothing here says anything about other people");
     report.page.table(table.text(), "participants.csv");
-    std::vector<std::string> exclusions;
+    tellSameNumbers(report.page, people);
+    ExportTable left{"left-out", report.isSimulated(),
+                     "participant,condition,session,trials,planned,why,left_out"};
     std::size_t rows = report.trials.leftOut.rows;
-    for (const UnfinishedRun& run : unfinishedRuns(report.trials)) exclusions.push_back(run.words());
-    if (report.trials.protocol && hasAdaptiveRows(report.trials)) {
-        AnalysisJob levels = report.options();
-        levels.protocol = report.trials.protocol;
-        if (const auto data = readFinishedLevels(levels))
+    for (const UnfinishedRun& run : unfinishedRuns(report.trials))
+        left.row(run.participant, run.condition, run.session, run.trials, run.planned, run.why(),
+                 run.leftOut());
+    const bool isAdaptive = hasAdaptiveRows(report.trials);
+    if (isAdaptive)
+        if (const auto data = readFinishedLevels(report.options()))
             for (const LevelSummary& one : summariseLevels(data.value.conditions.front().trials))
-                for (const std::string& words : one.leftOut)
-                    exclusions.push_back(one.condition + ": " + words + "; of means and tests");
-    }
+                for (const auto& [who, why] : one.leftOut)
+                    left.row(who, one.condition, "", "", "", why, "threshold");
     // Without a protocol only others tell how many trials there were; adaptive sessions have no fixed number.
-    const bool canCompare = !report.trials.protocol && !hasAdaptiveRows(report.trials);
+    const bool canCompare = !report.trials.protocol && !isAdaptive;
+    const auto of = [&](const std::string& code, std::size_t trials, const auto& planned,
+                        const std::string& why, const char* what) {
+        if (trials > 0) left.row(code, "", "", trials, planned, why, what);
+    };
     for (const auto& [code, own] : people) {
         if (facts.isExcluded(code)) {
-            exclusions.push_back("participant " + code +
-                                 " is excluded, with all trials: " + facts.person(code)->excluded);
+            of(code, own.main + own.training, "", facts.person(code)->excluded, "all trials");
             continue;
         }
         if (canCompare && own.main < most)
-            exclusions.push_back("participant " + code + " has " + counted(own.main, "trial") +
-                                 ", others have up to " + std::to_string(most) + ": they " +
-                                 countedButWhereLacking);
-        if (own.ranOut > 0)
-            exclusions.push_back("participant " + code + ": " + ranOutWords(own.ranOut) +
-                                 ": analyses leave them out");
+            left.row(code, "", "", own.main, most, "fewer trials than others",
+                     "tests that need what is lacking");
+        of(code, own.ranOut, "", "ran out of time", "these trials");
+        of(code, own.unanswered, "", "no answer", "these trials");
         rows -= std::min(rows, own.unanswered);
-        if (own.unanswered > 0)
-            exclusions.push_back("participant " + code + ": " + counted(own.unanswered, "trial") +
-                                 " without an answer left out");
     }
-    if (rows > 0)
-        exclusions.push_back(counted(rows, "row") + " with nothing in one of the named columns left out");
-    std::set<std::string> whose;
-    for (const CsvRow& row : report.trials.notLeft)
-        whose.insert(Cells{report.trials.all}(row, "participant"));
-    if (!whose.empty())
-        exclusions.push_back(notLeftWords(report.trials.notLeft.size()) + ": of " + joined(whose, ", "));
-    tellSameNumbers(report.page, people);
-    report.page.subheading("Exclusions");
-    if (!report.trials.protocol && hasAdaptiveRows(report.trials))
+    of("", rows, "", "nothing in a named column", "these rows");
+    std::map<std::string, std::size_t> whose;
+    for (const CsvRow& row : report.trials.notLeft) ++whose[Cells{report.trials.all}(row, "participant")];
+    for (const auto& [code, trials] : whose)
+        of(code, trials, "", "did not leave as planned (column left, or a peak of 0 g)", "these trials");
+    std::size_t training = 0;
+    for (const auto& [code, own] : people) training += facts.isExcluded(code) ? 0 : own.training;
+    of("", training, "", "training", "these trials");
+    report.page.subheading("Left out before the analyses");
+    if (!report.trials.protocol && isAdaptive)
         report.page.note(
-            "whether everyone finished, and who was at an end of the levels, is not known: levels "
-            "followed the answers, and the protocol, which says both, is not known");
-    if (exclusions.empty())
-        report.page.paragraph("Nobody and no main trial is left out before the analyses, each of which names "
-                              "whom it leaves out.");
-    else
-        report.page.list(exclusions);
-    if (std::ranges::any_of(people, [](const auto& one) { return one.second.training > 0; }))
-        report.page.paragraph("Trainings are left out of all analyses.");
+            "no protocol: unfinished staircases and thresholds at an end of the levels are not known");
+    report.addTable("left-out.csv", left.text());
+    report.page.table(left.text(), "left-out.csv", 200);
 }
 
 void tellProcedure(ReportBuilder& report) {
@@ -318,11 +261,8 @@ void tellProvenance(ReportBuilder& report) {
                                                                     {"hash", "hash of the protocol: "},
                                                                     {"seed", "seed of all orders: "}})
         if (const auto value = report.trials.common(key); !value.empty()) facts.push_back(words + value);
-    if (report.people() > 1)
-        facts.emplace_back("intervals over participants: Student's t, where nothing else is named");
     report.page.list(facts);
-    report.page.paragraph(
-        "Every table below is CSV with names of columns in its second line, after one of its origin.");
+    report.page.subheading("Tables");
     std::vector<std::string> files;
     for (const auto& [name, text] : report.tables()) files.push_back(name);
     report.page.list(files);
@@ -332,20 +272,16 @@ void tellProvenance(ReportBuilder& report) {
 
 namespace {
 
-std::string minutesOf(double seconds) { return fixedNumber(seconds / 60.0, 1) + " min"; }
-
-/// Every value that a column has, in words.
-std::string listedOf(const std::vector<StudyMoment>& moments, std::string StudyMoment::*field,
-                     const char* none) {
+/// Every value that a column has.
+std::string listedOf(const std::vector<StudyMoment>& moments, std::string StudyMoment::*field) {
     std::set<std::string> values;
     for (const StudyMoment& m : moments)
-        if (m.isBegin()) values.insert((m.*field).empty() ? none : m.*field);
-    return joined(values, ", then ");
+        if (m.isBegin()) values.insert(m.*field);
+    return joined(values, " | ");
 }
 
-} // namespace
-
-std::string timesSentence(const std::string& participant, const std::vector<StudyMoment>& moments) {
+/// A row on a participant. Precondition: there are moments.
+void addTimes(ExportTable& table, const std::string& participant, const std::vector<StudyMoment>& moments) {
     namespace events = studyEvents;
     std::size_t sittings = 0, cutOff = 0, breaks = 0, pauses = 0;
     double awaySeconds = 0.0, restSeconds = 0.0;
@@ -363,23 +299,23 @@ std::string timesSentence(const std::string& participant, const std::vector<Stud
         if (rests.isResting && !m.isBegin()) restSeconds += since;
         rests.take(m);
     }
-    const bool isOver = moments.back().event == events::end;
-    std::string words = participant + " began at " + moments.front().timeUtc +
-                        (isOver ? " and ended at " : " and has not ended; the last entry is of ") +
-                        moments.back().timeUtc + ": " + counted(sittings, "sitting");
-    if (sittings > 1) words += " with " + minutesOf(awaySeconds) + " between their entries";
-    if (cutOff > 0) words += ", " + std::to_string(cutOff) + " of them cut off";
-    words += ", " + counted(breaks, "break") + " of " + minutesOf(restSeconds) + " in all";
-    if (pauses > 0) words += ", " + counted(pauses, "pause") + " by closing the window";
-    return words + "; language " + listedOf(moments, &StudyMoment::language, "en") + "; outputs " +
-           listedOf(moments, &StudyMoment::outputs, "not known") + "; noise on outputs " +
-           listedOf(moments, &StudyMoment::noiseOutputs, "none") + ".";
+    const auto minutes = [](double seconds) { return fixedNumber(seconds / 60.0, 1); };
+    table.row(participant, moments.front().timeUtc, moments.back().timeUtc,
+              moments.back().event == events::end ? "yes" : "no", sittings, minutes(awaySeconds), cutOff,
+              breaks, minutes(restSeconds), pauses, listedOf(moments, &StudyMoment::language),
+              listedOf(moments, &StudyMoment::outputs), listedOf(moments, &StudyMoment::noiseOutputs));
 }
+
+} // namespace
 
 void tellTimes(ReportBuilder& report) {
     ExportTable table{"times", report.isSimulated(),
                       "participant,time_utc,event,trials,language,outputs,noise_outputs"};
-    std::vector<std::string> sentences;
+    ExportTable each{
+        "sittings", report.isSimulated(),
+        "participant,first_entry_utc,last_entry_utc,ended,sittings,min_between_sittings,cut_off,breaks,"
+        "break_min,pauses,language,outputs,noise_outputs"};
+    const std::string empty = each.text();
     std::size_t unknown = 0;
     for (const TrialFile& file : report.trials.files) {
         const auto code = file.head.find("participant"), observer = file.head.find("observer");
@@ -393,15 +329,13 @@ void tellTimes(ReportBuilder& report) {
         for (const StudyMoment& m : file.times)
             table.row(code->second, m.timeUtc, m.event, static_cast<std::size_t>(m.trials), m.language,
                       m.outputs, m.noiseOutputs);
-        sentences.push_back(timesSentence(code->second, file.times));
+        addTimes(each, code->second, file.times);
     }
-    if (unknown > 0)
-        report.page.note(counted(unknown, "participant") +
-                         " without a file of times: nothing is known of dates, breaks and outputs");
-    if (sentences.empty()) return;
+    if (unknown > 0) report.page.note(counted(unknown, "participant") + " without a file of times");
+    if (each.text() == empty) return;
     report.page.subheading("When");
     report.addTable("times.csv", table.text());
-    report.page.list(sentences);
+    report.page.table(each.text(), "sittings");
 }
 
 } // namespace physvib

@@ -63,8 +63,7 @@ void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) 
         if (fits(*given))
             trials.protocol = given;
         else
-            trials.protocolNote = "the protocol that was given is not the one of these trials (name and hash "
-                                  "of their first lines)";
+            trials.protocolNote = "the protocol that was given has another name or hash than these trials";
         return;
     }
     const auto& known = knownProtocols();
@@ -73,8 +72,8 @@ void findProtocolOf(ReportTrials& trials, const std::optional<Protocol>& given) 
     else if (name.empty())
         trials.protocolNote = "the tables name no protocol";
     else
-        trials.protocolNote = "protocol " + cleanLine(name) + " (hash " + cleanLine(hash) +
-                              ") is no built-in one: give it by --protocol, and its own words stand here";
+        trials.protocolNote =
+            "protocol " + cleanLine(name) + " (hash " + cleanLine(hash) + ") is no built-in one (--protocol)";
 }
 
 /// True if all rows record their apparatus and none had noise.
@@ -147,16 +146,14 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
     if (std::string note = trials.leftOut.stimuliWords(); !note.empty())
         trials.notes.push_back(std::move(note));
     if (const auto& unused = trials.leftOut.columns; !unused.empty())
-        trials.notes.push_back("columns that --columns does not name, and that are not used: " +
-                               joined(unused, ", "));
+        trials.notes.push_back("columns that --columns does not name: " + joined(unused, ", "));
     if (const auto kinds = analysesFor(trials.all);
         !trials.knowTasks() && !kinds.empty() && kinds.front() != "ratings") {
         std::set<std::string> scales;
         for (const std::string& column : trials.all.columns)
             if (!trialColumns::has(column)) scales.insert(column);
         if (!columns.empty() && !scales.empty())
-            trials.notes.push_back("no ratings are looked at beside answers: " + joined(scales, ", ") +
-                                   "; a report that does not name the answers has them");
+            trials.notes.push_back("not analysed beside answers: " + joined(scales, ", "));
     }
     findProtocolOf(trials, protocol);
     return trials;
@@ -308,19 +305,13 @@ bool hasAdaptiveRows(const ReportTrials& trials) {
            });
 }
 
-std::string UnfinishedRun::words() const {
-    if (!cutShort.empty())
-        return "participant " + participant + ": " + session + " in " + condition + ": " + cutShort +
-               ", for which nothing is left out";
-    return "participant " + participant +
-           (missing.empty() ? " did not finish " + session + " in " + condition
-                            : ": the file lacks " + missing + " of " + session + " in " + condition) +
-           ": " + std::to_string(trials) + " of " + (isAdaptive ? "up to " : "") + counted(planned, "trial") +
-           (isTraining   ? ", a training"
-            : isOver     ? ", which bring it to its end, and count"
-            : isAdaptive ? ", so this threshold is left out of means and tests"
-            : trials > 0 ? std::string{", which "} + countedButWhereLacking
-                         : "");
+std::string UnfinishedRun::why() const {
+    return !cutShort.empty() ? cutShort : missing.empty() ? "not finished" : "lacks " + missing;
+}
+
+std::string UnfinishedRun::leftOut() const {
+    if (isOver || isTraining || trials == 0) return {};
+    return isAdaptive ? "threshold" : "tests that need what is lacking";
 }
 
 std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {

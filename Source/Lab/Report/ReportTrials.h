@@ -104,13 +104,9 @@ struct UnfinishedRun {
     bool isTraining = false;
     std::string cutShort{}; ///< "a staircase ended at 40 trials with 5 of 6 reversals": nothing else is amiss
 
-    std::string words() const;
+    std::string why() const;     ///< "not finished", "lacks trials 3, 8 to 9", or cutShort
+    std::string leftOut() const; ///< "threshold", "tests that need what is lacking" or empty
 };
-
-/// What becomes of the trials of somebody who has fewer than others.
-inline constexpr const char* countedButWhereLacking =
-    "count except in means and tests that need a stimulus or "
-    "level that is lacking, and name whom they leave out";
 
 /// Of people who are not excluded; none without a protocol. Explorations end when people like. Any thread.
 std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials);

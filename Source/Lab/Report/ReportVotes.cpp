@@ -18,103 +18,36 @@ namespace {
 
 constexpr std::size_t mostShown = 24; // bars side by side
 
-/// As published; fewer people have no interval of 95 % by ranks.
-bool showsMedians(const ReportBuilder& report) { return report.isAsPublished() && report.people() >= 6; }
+/// Whether so many bars fit; of more the table alone tells.
+bool hasRoom(const auto& summaries) { return summaries.size() <= mostShown; }
 
-/// Shares of one participant have Wilson's interval over trials.
-std::string shareIntervals(const ReportBuilder& report, const std::vector<ChoiceSummary>& shown) {
-    if (showsMedians(report)) return ", 95 % intervals by ranks of participants";
-    return report.people() > 1 ? report.intervals() + intervalNotes(shown)
-                               : ", of one participant: 95 % intervals over trials, Wilson's";
-}
-
-using SessionOfChoices = StudyCondition<ChoiceTrial>;
-
-/// Shares by the last two factors of names like "pair=wood size=small", over the levels of the others.
-void tellTwoFactors(ReportBuilder& report, SessionOfChoices session) {
-    auto& trials = session.trials;
-    std::set<std::string> both;
-    for (ChoiceTrial& trial : trials) {
-        const auto words = factorWords(trial.condition);
-        if (words.size() < 2) return;
-        trial.condition = words.end()[-2] + " " + words.back();
-        both.insert(trial.condition);
-    }
-    if (both.size() > mostShown) return;
-    auto summaries = summariseChoices(trials);
-    std::erase_if(summaries, [&](const ChoiceSummary& each) { return !both.contains(each.condition); });
-    report.page.figure(
-        {sharesChart(report.frame(inSession("Shares by two factors", session.name)), summaries,
-                     showsMedians(report))},
-        inSession(showsMedians(report) ? "Median shares by two factors" : "Shares by two factors",
-                  session.name) +
-            report.asThesis("Fig. 5.9") + shareIntervals(report, summaries) + ".");
-}
-
-void tellShares(ReportBuilder& report, const SessionOfChoices& session) {
-    auto summaries = summariseChoices(session.trials);
-    std::set<std::string> conditions;
-    for (const ChoiceTrial& trial : session.trials) conditions.insert(trial.condition);
-    // Of factors their levels; else all trials, and conditions while there is room.
-    const bool hasFactors = summaries.size() > conditions.size() + 1;
-    std::erase_if(summaries, [&](const ChoiceSummary& each) {
-        return hasFactors && conditions.contains(each.condition);
-    });
-    if (summaries.size() > mostShown) summaries.resize(mostShown);
-    const bool areOfSome = std::ranges::any_of(summaries, [](const ChoiceSummary& one) {
-        return std::ranges::any_of(one.shares, [&](const auto& share) { return share.trials < one.trials; });
-    });
-    report.page.figure(
-        {sharesChart(report.frame(inSession("Shares of the alternatives", session.name)), summaries,
-                     showsMedians(report))},
-        inSession(report.people() < 2 ? std::string{"Shares of the alternatives"}
-                                      : (showsMedians(report) ? "Median" : "Mean") +
-                                            std::string{" of the participants' shares"},
-                  session.name) +
-            report.asThesis(showsMedians(report) ? "Fig. 5.8" : "Fig. 5.8, which has medians") +
-            shareIntervals(report, summaries) + ". " +
-            (alternativesOffered(summaries) > 0
-                 ? "Chance: 1 of the " + std::to_string(alternativesOffered(summaries)) +
-                       " alternatives offered or given"
-                 : std::string{"Trials offered unequal numbers of alternatives, so chance has no line"}) +
-            (areOfSome ? "; a share is of the trials that offered it." : "."));
-    if (hasFactors) tellTwoFactors(report, session);
+void tellShares(ReportBuilder& report, const StudyCondition<ChoiceTrial>& session) {
+    const auto summaries = summariseChoices(session.trials);
+    const std::string title = inSession("Mean share of each alternative", session.name);
+    std::vector<std::size_t> people;
+    for (const ChoiceSummary& one : summaries)
+        for (const ChoiceShare& share : one.shares) people.push_back(share.participants);
+    if (hasRoom(summaries))
+        report.page.figure({sharesChart(report.frame(title), summaries)}, title + ofPeople(people) + ".");
 }
 
 void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondition<RatingTrial>& session) {
     const auto summaries = summariseRatings(session.trials);
-    std::set<std::string> conditions;
-    for (const RatingTrial& trial : session.trials) conditions.insert(trial.condition);
-    const bool hasIntervals = std::ranges::any_of(summaries, [](const RatingSummary& one) {
-        return std::ranges::any_of(one.halfIntervals, [](double half) { return half > 0.0; });
-    });
     std::set<int> all; // points of the scales of this session, or of all where they are not parted
     for (const SessionPlan& plan :
          report.trials.protocol ? report.trials.protocol->sessions : std::vector<SessionPlan>{})
         if (plan.answer() == AnswerKind::scores && !plan.isTraining &&
             (session.name.empty() || session.name == plan.name))
             all.insert(plan.points);
-    const int points = all.size() == 1 ? *all.begin() : 0;
-    const auto draw = [&](const char* words, const char* figure, const std::vector<RatingSummary>& shown) {
-        const std::string title = inSession(words, session.name);
+    const std::string title = inSession("Mean score of each scale", session.name);
+    std::vector<std::size_t> people;
+    for (const RatingSummary& one : summaries)
+        for (const std::size_t raters : one.raters)
+            if (raters > 0) people.push_back(raters);
+    if (hasRoom(summaries))
         report.page.figure(
-            {scoresChart(report.frame(title), data.scales, shown, points)},
-            title + report.asThesis(figure) + report.intervals(hasIntervals) +
-                (report.people() > 1 && std::ranges::count(shown, 1, &RatingSummary::participants) > 0
-                     ? ", none of one alone"
-                     : "") +
-                ".");
-    };
-    // In reverse order, so that AV-FV-DRV comes first; of many combinations the levels of factors.
-    const bool isMany = conditions.size() > mostShown && summaries.size() > conditions.size();
-    std::vector<RatingSummary> shown, factors;
-    for (const RatingSummary& each : summaries) {
-        if (conditions.contains(each.condition) != isMany) shown.insert(shown.begin(), each);
-        if (!conditions.contains(each.condition)) factors.push_back(each);
-    }
-    draw("Mean scores", "Fig. 5.14", shown);
-    if (!factors.empty() && !isMany) // of many they are shown already
-        draw("Mean scores by factor", "Fig. 5.13", factors);
+            {scoresChart(report.frame(title), data.scales, summaries, all.size() == 1 ? *all.begin() : 0)},
+            title + ofPeople(people) + ".");
 }
 
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.
@@ -166,25 +99,19 @@ void tellRatings(ReportBuilder& report) {
 bool tellDescriptions(ReportBuilder& report) {
     const Cells cell{report.trials.all};
     std::map<std::array<std::string, 4>, std::size_t> counts; // condition, session, stimulus, words
-    std::size_t all = 0, empty = 0;
     for (const CsvRow& row : report.trials.all.rows) {
         if (answerOf(cell(row, trialColumns::task)) != AnswerKind::words ||
             cell(row, trialColumns::phase) == trialColumns::training ||
             cell(row, trialColumns::ranOut) == "1")
             continue;
-        ++all;
-        empty += cell(row, "response").empty();
         ++counts[{cell(row, "condition"), cell(row, "session"), cell(row, "stimulus"),
                   cell(row, "response")}];
     }
-    if (all == 0) return false;
+    if (counts.empty()) return false;
     ExportTable table{"descriptions", report.isSimulated(), "condition,session,stimulus,response,trials"};
     for (const auto& [key, trials] : counts) table.row(key[0], key[1], key[2], key[3], trials);
     report.addTable("descriptions.csv", table.text());
     report.page.heading("Answers in words");
-    report.page.paragraph(counted(all, "answer") + " in participants' own words" +
-                          (empty > 0 ? ", " + std::to_string(empty) + " of them empty" : std::string{}) +
-                          ": counted by stimulus, not analysed.");
     report.page.table(report.tableText("descriptions.csv"), "descriptions.csv");
     return true;
 }

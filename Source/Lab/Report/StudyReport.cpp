@@ -75,14 +75,68 @@ std::vector<std::string> inPoints(const ReportTrials& trials) {
     return scales;
 }
 
+/// What analysis.R wrote: a table for each test, then what was left out, and what was not tested.
+void tellTests(ReportPage& page, const CsvTable& all) {
+    using Names = std::vector<std::pair<std::string_view, std::string_view>>; // of a column, and on the page
+    const Names ofTests{{"effect", "effect"},
+                        {"statistic", "statistic"},
+                        {"df1", "df"},
+                        {"df2", "df of the error"},
+                        {"value", "value"},
+                        {"p", "p"},
+                        {"correction", "correction"},
+                        {"epsilon", "epsilon"},
+                        {"p_corrected", "corrected p"},
+                        {"across", "correction across"},
+                        {"p_across", "p corrected across"},
+                        {"size", "effect size is"},
+                        {"effect_size", "effect size"},
+                        {"n", "n"},
+                        {"difference", "difference"},
+                        {"least", "95 % interval, least"},
+                        {"most", "95 % interval, most"},
+                        {"note", "note"}},
+        ofMeans{{"effect", "level"},
+                {"statistic", "statistic"},
+                {"value", "value"},
+                {"effect_size", "SD"},
+                {"n", "n"}},
+        ofNotes{{"test", "of"}, {"effect", "what"}, {"n", "n"}, {"note", "which"}},
+        ofNone{{"test", "test"}, {"effect", "effect"}, {"n", "n"}, {"note", "why"}};
+    const Cells cell{all};
+    const auto show = [&](const Names& names, const auto& isOf) {
+        std::string csv;
+        const auto add = [&](auto cellOf) {
+            for (std::size_t i = 0; i < names.size(); ++i)
+                csv += i > 0 ? "," : "", appendCell(csv, cellOf(names[i]));
+            csv += '\n';
+        };
+        add([](const auto& name) { return name.second; });
+        for (const CsvRow& row : all.rows)
+            if (isOf(row)) add([&](const auto& name) { return std::string_view{cell(row, name.first)}; });
+        page.table(csv, testsTable, 200);
+    };
+    const auto isTest = [&](const CsvRow& row) {
+        return cell(row, "kind") == "test" || cell(row, "kind") == "assumption";
+    };
+    std::set<std::string> told;
+    for (const CsvRow& one : all.rows) {
+        const bool isMean = cell(one, "kind") == "mean";
+        if ((!isMean && !isTest(one)) || !told.insert(cell(one, "test")).second) continue;
+        page.subheading(cell(one, "test"));
+        show(isMean ? ofMeans : ofTests, [&](const CsvRow& row) {
+            return cell(row, "test") == cell(one, "test") && (isMean || isTest(row));
+        });
+    }
+    page.subheading("Left out of tests, averaged over, chance");
+    show(ofNotes, [&](const CsvRow& row) { return cell(row, "kind") == "note"; });
+    page.subheading("Not tested");
+    show(ofNone, [&](const CsvRow& row) { return cell(row, "kind") == "not made"; });
+}
+
 /// What analysis.R finds, if it can be run here, and how else to run it.
-void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run) {
-    report.page.heading("Tests");
-    report.page.paragraph(
-        "analysis.R, beside this page, chooses each test by its measure and by the factors that rows "
-        "have, and runs it in R (Debian: r-base-core; r-cran-lme4 where people lack levels). The unit "
-        "is the participant. Training, and trials that did not leave, are left out. Corrections are "
-        "named with their p; sphericity and normality are shown, and decide nothing.");
+void runTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run) {
+    report.page.heading("Tests over participants");
     StudyFiles files = report.tables();
     files[analysisScriptName] = made.files[analysisScriptName];
     auto ran = run ? run(files) : Result<StudyFiles>{StudyFiles{}};
@@ -91,17 +145,42 @@ void tellTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run
         return report.page.note(made.scriptFault);
     }
     if (ran.value.empty())
-        return report.page.paragraph("It has not run: type `Rscript analysis.R` in this folder.");
+        return report.page.paragraph("Not run: `Rscript analysis.R` (Debian: r-base-core).");
     const std::string table = ran.value[testsTable];
     made.tests = testsIn(table);
-    report.page.paragraph("By " + table.substr(std::min<std::size_t>(2, table.size()), table.find('\n') - 2) +
-                          (made.tests.empty() ? ": no test was made." : ":"));
-    report.page.lines(ran.value[testsWords]);
-    ran.value.erase(testsWords);
+    report.page.paragraph("analysis.R, " +
+                          table.substr(std::min<std::size_t>(2, table.size()), table.find('\n') - 2) + ".");
+    if (const auto read = readCsvTable(table, testsTable); read && !read.value.rows.empty())
+        tellTests(report.page, read.value);
     std::vector<std::string> tables;
     for (const auto& [name, text] : ran.value) tables.push_back(name);
     report.page.paragraph("Tables by R: " + joined(tables, ", ") + ".");
     made.files.merge(ran.value);
+}
+
+/// The plan beside what was done, line by line.
+void tellPlan(ReportBuilder& report, const StudyReport& made) {
+    const ReportTrials& trials = report.trials;
+    const PlanFacts plan = readPlan(trials.facts.plan, "plan").value;
+    const bool areKnown = report.people() < 2 || made.files.contains(testsTable);
+    const auto& planned =
+        trials.all.column(trialColumns::group) && !plan.grouped.empty() ? plan.grouped : plan.tests;
+    std::set<std::string> people, tests{made.tests.begin(), made.tests.end()};
+    for (const TrialFile& file : trials.files)
+        if (const auto column = file.table.column("participant"))
+            for (const CsvRow& row : file.table.rows) people.insert(row.cells[*column]);
+    tests.insert(planned.begin(), planned.end());
+    ExportTable table{"plan", report.isSimulated(), "what,planned,done"};
+    table.row("hash of the plan", contentHash(trials.facts.plan), "");
+    table.row("hash of the protocol", plan.hash, trials.common("hash"));
+    table.row("participants", plan.participants, people.size());
+    const auto word = [](bool isKnown, const auto& all, const std::string& test) {
+        return !isKnown ? "not known" : std::ranges::find(all, test) != all.end() ? "yes" : "no";
+    };
+    for (const std::string& test : tests)
+        table.row(test, word(plan.isListed, planned, test), word(areKnown, made.tests, test));
+    report.page.heading("Planned and done");
+    report.page.table(table.text(), "plan", 200);
 }
 
 } // namespace
@@ -118,28 +197,16 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
     for (const Section& section : sections)
         if (std::ranges::find(kinds, section.analysis) != kinds.end()) section.tell(report);
     if (!tellDescriptions(report) && kinds.empty()) {
-        made.notes.emplace_back(
-            "no means are known of these columns: the report has their table, the participants, and what "
-            "analysis.R tests");
-        report.page.heading("Results");
-        report.page.note(made.notes.back());
+        made.notes.emplace_back("no analysis is known of these columns");
+        report.page.heading("Trials");
         report.page.table(report.tableText(trialsTable), trialsTable);
     }
     if (report.people() > 1) {
         made.files[analysisScriptName] = analysisScript(studyWords(trials), report.scales, inPoints(trials),
                                                         report.half, trials.protocol.has_value());
-        tellTests(report, made, script);
+        runTests(report, made, script);
     }
-    if (!trials.facts.plan.empty()) {
-        report.page.heading("Planned and done");
-        const auto tests =
-            report.people() < 2 || made.files.contains(testsTable) ? std::optional{made.tests} : std::nullopt;
-        const auto compared = comparedWithPlan(trials.facts.plan, "plan", trials, tests);
-        report.page.list(compared.value);
-        if (made.files.contains(testsTable))
-            if (const auto lines = notMadeIn(made.files.at(testsTable)); !lines.empty())
-                report.page.list(lines);
-    }
+    if (!trials.facts.plan.empty()) tellPlan(report, made);
     tellProvenance(report);
     made.functions = report.functions;
     made.files.insert(report.tables().begin(), report.tables().end());
@@ -197,8 +264,7 @@ Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protoco
     if (!job.planPath.empty()) {
         auto plan = readFile(job.planPath, limits::maxTableBytes);
         if (!plan) return Failure{plan.error};
-        if (const auto read = comparedWithPlan(plan.value, job.planPath, trials.value, {}); !read)
-            return Failure{read.error};
+        if (const auto read = readPlan(plan.value, job.planPath); !read) return Failure{read.error};
         facts.plan = std::move(plan.value);
     }
     if (!job.peoplePath.empty()) {
@@ -303,11 +369,76 @@ std::string listOf(const char* title, const std::vector<std::string>& lines) {
     return text;
 }
 
-/// Without its factors: a group adds one, and between people has a test of its own name.
-std::string stemOf(std::string test) {
-    constexpr std::string_view also = " and Kruskal and Wallis'";
-    if (const auto at = test.find(also); at != test.npos) test.erase(at, also.size());
-    return test.substr(0, test.rfind(" by "));
+/// How p are corrected in a table of tests, without the numbers of tests.
+std::set<std::string> correctionsIn(const std::string& table) {
+    std::set<std::string> all;
+    const auto read = readCsvTable(table, testsTable);
+    const Cells cell{read.value};
+    for (const CsvRow& row : read.value.rows) {
+        const auto name = [&](const char* column) {
+            const std::string& words = cell(row, column);
+            return words.substr(0, words.find(','));
+        };
+        const std::string test = cell(row, "test").substr(0, cell(row, "test").find(" of "));
+        if (const std::string words = name("correction"); !words.empty()) all.insert(test + ": " + words);
+        if (const std::string& across = cell(row, "across"); !across.empty())
+            all.insert(test + ": " + name("across") +
+                       across.substr(std::min(across.size(), across.find(" over "))));
+    }
+    return all;
+}
+
+/// Definitions of the measures that these sessions have, and what is left out of them.
+std::string measuresOf(const Protocol& protocol, int participants, const StudyReport& report) {
+    const auto has = [&](auto is) {
+        return std::ranges::any_of(protocol.sessions, [&](const auto& s) { return !s.isTraining && is(s); });
+    };
+    const auto isOf = [&](AnswerKind kind) {
+        return has([=](const SessionPlan& s) { return s.answer() == kind && !s.adaptedAlternative(); });
+    };
+    const bool hasStaircase = has([](const SessionPlan&s) { return s.staircase.has_value(); }),
+               hasQuest = has([](const SessionPlan&s) { return s.quest.has_value(); }),
+               hasFunctions = report.files.contains("psychometric-stimuli.csv");
+    std::vector<std::string> measures,
+        exclusions{
+            "people with a reason in the table of people",
+            "trials that did not leave as planned, ran out of time or have no answer", "trainings",
+            "tests: who lacks a level; factors of which fewer than half of the people have all levels"};
+    const auto add = [&](bool isThere, std::string measure, const char* exclusion = "") {
+        if (!isThere) return;
+        measures.push_back(std::move(measure));
+        if (*exclusion != '\0') exclusions.emplace_back(exclusion);
+    };
+    add(hasStaircase,
+        "threshold of a staircase: mean of the later half of the reversals of the level that a trial "
+        "followed; of "
+        "several staircases their mean",
+        "staircases: unfinished, of fewer than two reversals, or with half or more of the trials or of the "
+        "reversals that count at an end of the levels");
+    add(hasQuest,
+        participants > 1 ? "threshold by QUEST+: posterior mean, with the widths of all participants together"
+                         : "threshold by QUEST+: posterior mean",
+        "QUEST+: unfinished, or within half a step of an end of the levels");
+    add(hasFunctions,
+        "threshold and JND of a function: level half way up, and half of what lies between a quarter and "
+        "three "
+        "quarters; maximum likelihood, " +
+            report.functions,
+        "functions: not rising, a constant fits as well (likelihood ratio, p > 0.05), width of 20 times the "
+        "range "
+        "of the levels, threshold outside it; of a step the JND");
+    add(has([](const SessionPlan& s) { return s.adjustment.has_value(); }), "matched level: mean, dB");
+    add(isOf(AnswerKind::number), "magnitude: geometric mean; exponent: slope of logarithms, least squares");
+    add(has([](const SessionPlan& s) { return s.comparesPairs; }),
+        "pairs of stimuli: means (similarity.csv), classical scaling (mds.csv); distance: score of scales "
+        "that "
+        "begin with dis or diff, else 100 or the number of points less the score");
+    add(isOf(AnswerKind::label),
+        "percent correct; information transfer, from 5 trials per cell on less Miller's bias");
+    add(isOf(AnswerKind::place), "place: mean of x and of y; variable error: standard deviation around it");
+    add(isOf(AnswerKind::choice), "choice: share of an alternative");
+    add(isOf(AnswerKind::scores), "scale: mean score");
+    return listOf("Measures, of each participant", measures) + listOf("Exclusions", exclusions);
 }
 
 } // namespace
@@ -320,109 +451,20 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
     std::vector<std::string> conditions, sessions, tests;
     for (const std::string& test : report.tests) tests.push_back("test: " + test);
     for (const auto& one : protocol.conditions) conditions.push_back(conditionWords(one));
-    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session, protocol));
+    for (const SessionPlan& session : protocol.sessions) sessions.push_back(sessionWords(session));
     std::string text = provenanceComment({PHYSVIB_VERSION,
                                           {{"plan", "study"},
                                            {"protocol", protocol.name},
                                            {"hash", protocolHash(protocol)},
                                            {"participants", std::to_string(participants)}}});
-    text += listOf("Design", protocolSentences(protocol));
-    text += listOf("Conditions", conditions) + listOf("Sessions, with their ends", sessions);
-    text += listOf("Participants", {counted(static_cast<std::size_t>(participants), "participant") +
-                                    ", numbers from 1, each once; nobody more or fewer, whatever is found"});
-    const auto has = [&](auto is) {
-        return std::ranges::any_of(protocol.sessions, [&](const auto& s) { return !s.isTraining && is(s); });
-    };
+    text += listOf("Protocol, by the fields of its file", {protocolWords(protocol)});
+    text += listOf("Conditions", conditions) + listOf("Sessions, each in each condition", sessions);
+    text += listOf("Participants", {std::to_string(participants)});
+    text += measuresOf(protocol, participants, report);
     const bool isListed = participants < 2 || report.files.contains(testsTable);
-    const auto lists = [&](std::string_view words) { // or may have it, where R was not there
-        return !isListed || std::ranges::any_of(tests, [=](const std::string& test) {
-            return test.find(words) != test.npos;
-        });
-    };
-    const bool hasAnova = lists("analysis of variance"), hasPairs = lists("pairs by");
-    std::vector<std::string> exclusions{
-        "all trials of those for whom the table of people has a reason",
-        std::string{"trials that did not leave as planned"} +
-            (has([](const SessionPlan& s) { return s.answerSeconds > 0.0; }) ? ", ran out of time" : "") +
-            " or have no answer",
-        "who did not finish is named"};
-    if (hasAnova || hasPairs)
-        exclusions.push_back(
-            std::string{"tests leave out who lacks a combination of levels; "} +
-            (hasAnova ? "where somebody does, an analysis of variance also has a mixed model of all "
-                        "(r-cran-lme4); "
-                      : "") +
-            "no factor is tested of which fewer than half of the people have all levels");
-    std::vector<std::string> measures;
-    if (has([](const SessionPlan& s) { return s.staircase.has_value(); }))
-        measures.emplace_back(staircaseThresholds);
-    if (has([](const SessionPlan& s) { return s.quest.has_value(); }) && participants > 1)
-        measures.emplace_back(questThresholds);
-    const bool hasFunctions = report.files.contains("psychometric-stimuli.csv");
-    if (hasFunctions)
-        measures.emplace_back(
-            "thresholds (of two answers points of subjective equality) and JNDs of each "
-            "participant's logistic function, by maximum likelihood: its level half way up, and "
-            "half of what lies between a quarter and three quarters; functions are " +
-            report.functions);
-    if (has([](const SessionPlan& s) { return s.adjustment.has_value(); }))
-        measures.emplace_back("matched levels: each participant's mean of what they set, in dB");
-    if (has([](const SessionPlan& s) { return s.answer() == AnswerKind::number; }))
-        measures.emplace_back("magnitudes: geometric means of each participant; exponents of each one's "
-                              "power law of stimuli that are numbers, by least squares of logarithms");
-    if (has([](const SessionPlan& s) { return s.comparesPairs; }))
-        measures.emplace_back(
-            "pairs of stimuli: means over participants of each one's mean of a pair, and a map of them by "
-            "classical scaling (similarity.csv, mds.csv): scales whose names begin with dis or diff are "
-            "distances, others what they lack of 100, of points of their number");
-    for (const auto& [kind, words] : std::initializer_list<std::pair<AnswerKind, const char*>>{
-             {AnswerKind::label,
-              "percent correct: each participant's share of right answers; information transfer of "
-              "all trials together, from 5 trials per cell on less Miller's bias"},
-             {AnswerKind::place,
-              "places: each participant's means of what they answered, by axis, and the standard "
-              "deviation around them (variable error)"},
-             {AnswerKind::choice, "choices: each participant's share of an alternative"},
-             {AnswerKind::scores, "scales: each participant's mean of each"}})
-        if (has([&](const SessionPlan& s) { return s.answer() == kind && !s.adaptedAlternative(); }))
-            measures.emplace_back(words);
-    if (!measures.empty()) text += listOf("Measures", measures);
-    if (has([](const SessionPlan& s) { return s.adaptedAlternative() != nullptr; }))
-        exclusions.emplace_back(
-            "thresholds of sessions that were not finished, of staircases of fewer than two "
-            "reversals, or at an end of the levels (half or more of a staircase's trials or of "
-            "the reversals that count; of QUEST+ within half a step)");
-    if (hasFunctions)
-        exclusions.emplace_back(
-            "functions of levels that are numbers: of answers that do not rise, that a constant "
-            "fits as well (likelihood ratio, p > 0.05), of widths of 20 times the range of the "
-            "levels, of thresholds outside it; of steps the JND");
-    text += listOf("Exclusions", exclusions);
-    std::vector<std::string> corrections;
-    if (hasAnova)
-        corrections.emplace_back("of factors of more than two levels within people Greenhouse and Geisser's, "
-                                 "in an analysis of variance");
-    if (hasPairs)
-        corrections.push_back(std::string{"of the pairs of a factor "} +
-                              (protocol.name.ends_with(thesisSuffix) ? "Bonferroni's" : "Holm's"));
-    if (lists("against chance"))
-        corrections.emplace_back("of shares against chance Holm's, over the lines of each session");
-    std::set<std::string> scales;
-    for (const SessionPlan& session : protocol.sessions)
-        if (!session.isTraining && session.answer() == AnswerKind::scores)
-            scales.insert(session.scales.begin(), session.scales.end());
-    if (scales.size() > 1 && (hasAnova || hasPairs))
-        corrections.emplace_back("of an effect over several scales Holm's");
-    if (has([](const SessionPlan& s) {
-            return s.answer() == AnswerKind::choice && std::max(s.alternatives.size(), s.answers.size()) > 2;
-        }) &&
-        lists("choice="))
-        corrections.emplace_back(
-            "of an effect, and of all pairs of a factor, over more than two alternatives Holm's");
-    corrections.emplace_back(corrections.empty() ? "none"
-                                                 : "over those tests that can be made: what cannot be tested "
-                                                   "is named, and counts in none");
-    text += listOf("Corrections", corrections);
+    std::set<std::string> corrections;
+    for (const std::string& words : correctionsIn(report.files[testsTable])) corrections.insert(words);
+    text += listOf("Corrections", {corrections.begin(), corrections.end()});
     text += listOf("Tests over participants, as analysis.R runs them in R", tests);
     if (tests.empty()) text += (isListed ? "none" : std::string{notListed}) + "\n";
     if (participants >= 4 && report.files.contains(testsTable)) { // two of each group
@@ -430,64 +472,23 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
         auto grouped = studyReport(trials.value, script);
         for (std::string& test : grouped.tests) test.insert(0, groupedMark.substr(2));
         if (const auto& of = grouped.tests; !of.empty())
-            text += listOf(
-                "In their place, if people.csv names groups (here two, of two people or more each)", of);
+            text += listOf("In their place, by group (two groups in people.csv)", of);
     }
     return PlannedStudy{std::move(text), std::move(report.files[analysisScriptName])};
 }
 
-Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::string_view name,
-                                                  const ReportTrials& trials,
-                                                  const std::optional<std::vector<std::string>>& tests) {
+Result<PlanFacts> readPlan(std::string_view plan, std::string_view name) {
     std::string_view rest = plan, first = takeUntil('\n', rest);
     const TrialHead head = trialHeadOf({std::string{first.substr(std::min<std::size_t>(1, first.size()))}});
     if (!head.contains("plan") || !head.contains("hash") || !head.contains("participants"))
         return Failure{std::string{name} + ":1: expected a plan of `physvib study plan`"};
-    std::set<std::string> planned;
-    const auto mark = trials.all.column(trialColumns::group) && plan.find(groupedMark) != plan.npos
-                          ? groupedMark
-                          : testMark;
+    PlanFacts facts{head.at("hash"), head.at("participants"), {}, {}, plan.find(notListed) == plan.npos};
     while (!rest.empty()) {
         const std::string_view line = takeUntil('\n', rest);
-        if (line.starts_with(mark)) planned.emplace(line.substr(mark.size()));
+        for (const auto& [mark, tests] : {std::pair{testMark, &facts.tests}, {groupedMark, &facts.grouped}})
+            if (line.starts_with(mark)) tests->emplace_back(line.substr(mark.size()));
     }
-    const bool isOfThis = head.at("hash") == trials.common("hash");
-    std::vector<std::string> sentences{
-        "The plan, whose hash is " + contentHash(std::string{plan}) +
-        (isOfThis ? ", is of the protocol of these trials (hash " + head.at("hash") + ")."
-                  : ", is of another protocol than these trials: hash " + head.at("hash") + ", theirs " +
-                        (trials.common("hash").empty() ? "is not one" : trials.common("hash")) + ".")};
-    std::set<std::string> people;
-    for (const TrialFile& file : trials.files)
-        if (const auto column = file.table.column("participant"))
-            for (const CsvRow& row : file.table.rows) people.insert(row.cells[*column]);
-    if (std::to_string(people.size()) != head.at("participants"))
-        sentences.push_back("Planned were " + head.at("participants") + " participants, " +
-                            std::to_string(people.size()) + " took part.");
-    if (!tests || plan.find(notListed) != std::string_view::npos) {
-        sentences.emplace_back("The tests are not compared: R did not run, now or when it was planned; the "
-                               "scripts can be.");
-        return sentences;
-    }
-    if (tests->empty() && planned.empty()) {
-        sentences.emplace_back(
-            (sentences.size() > 1 ? "Plan" : "The number of participants is as planned; plan") +
-            std::string{" and report make no test."});
-        return sentences;
-    }
-    for (const std::string& test : *tests) {
-        if (planned.erase(test) > 0) continue;
-        const auto other = std::ranges::find_if(planned, [&](const auto& one) {
-            return stemOf(one) == stemOf(test) && std::ranges::find(*tests, one) == tests->end();
-        });
-        sentences.push_back(other == planned.end() ? "Not planned: " + test
-                                                   : "Planned as " + *other + ", done as " + test);
-        if (other != planned.end()) planned.erase(other);
-    }
-    for (const std::string& test : planned) sentences.push_back("Planned, not done: " + test);
-    if (sentences.size() == 1)
-        sentences.emplace_back("The number of participants and the titles of tests are as planned.");
-    return sentences;
+    return facts;
 }
 
 } // namespace physvib

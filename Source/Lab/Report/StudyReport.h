@@ -57,10 +57,14 @@ struct PlannedStudy {
 /// The tests are those that the script runs of simulated participants. Message thread only.
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script);
 
-/// Sentences on what differs between a plan and the trials, or that nothing does; the first has the plan's
-/// hash. `tests`: those of the report, where R ran. Fails on a text that is no plan. Any thread (allocates).
-Result<std::vector<std::string>> comparedWithPlan(std::string_view plan, std::string_view name,
-                                                  const ReportTrials& trials,
-                                                  const std::optional<std::vector<std::string>>& tests);
+/// What a plan says that a report compares.
+struct PlanFacts {
+    std::string hash, participants;          ///< of the protocol; number
+    std::vector<std::string> tests, grouped; ///< titles; by group
+    bool isListed = true;                    ///< R was there when it was planned
+};
+
+/// Fails on a text that is no plan. Any thread (allocates).
+Result<PlanFacts> readPlan(std::string_view plan, std::string_view name);
 
 } // namespace physvib

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: MIT
-# Tests over participants, by R alone. Run in the folder of the report: Rscript analysis.R. Prints each test and writes tests.csv. `study` at the end
+# Tests over participants, by R alone. Run in the folder of the report: Rscript analysis.R writes tests.csv. `study` at the end
 # says which measures there are; what is tested follows from the measure and from the factors that its rows have, here and nowhere else.
 script <- sub("^--file=", "", grep("^--file=", commandArgs(FALSE), value = TRUE))
 if (length(script) == 1 && basename(script) == "analysis.R") setwd(dirname(script))
 options(warn = -1) # R warns of ties in rank tests, where p is not exact, and of names in an appended table
-if ("quiet" %in% commandArgs(TRUE)) sink("tests.txt")
 
 # All cells as text: 01 is not 1, and NA may be a code, though of no group. The apostrophe before what a spreadsheet would take for a formula goes.
 # A participant's group stands in the rows, in participants.csv, or in the trials that a table is of. Trainings, and trials that did not leave, are left out.
@@ -96,24 +95,13 @@ of.people <- function(file, measure, factor, people, where = character()) { # th
 }
 
 results <- data.frame()
-digits.of <- function(p) format(signif(p, 3), digits = 3, scientific = FALSE)
-# The statistic "note" is of no test: it says what was averaged over, left out or looked at.
+# A line of tests.csv. `kind`: a test, an assumption of one, a mean of a level, what was left out or averaged over (note), or why there is no test (not made).
 result <- function(test, effect, statistic, value, p, n, df1 = NA, df2 = NA, p_corrected = NA, correction = "", epsilon = NA, size = "",
-                   effect_size = NA, difference = NA, least = NA, most = NA, note = "", lines = 2) { # lines: that are corrected together
-  line <- data.frame(test, effect, statistic, df1, df2, value, p, p_corrected, correction, epsilon, size, effect_size, n, difference, least, most, note, p_across = NA)
-  results <<- rbind(results, line)
-  near <- function(x) format(signif(x, 4), digits = 4)
-  known <- function(words, x, says = near(x)) if (is.na(x)) "" else paste0(", ", words, " ", says)
-  p.words <- function(p) if (is.na(p) || p >= 1e-4) paste("=", digits.of(p)) else "< 0.0001"
-  df <- if (is.na(df1)) "" else paste0("(", near(df1), if (!is.na(df2)) paste0(", ", near(df2)), ")")
-  interval <- if (is.na(least)) "" else paste0(" (95 % interval ", near(least), " to ", near(most), ")")
-  whose <- c(holm = "Holm's", bonferroni = "Bonferroni's", "Greenhouse-Geisser" = "Greenhouse and Geisser's")[correction]
-  middle <- if (statistic == "V") "median difference" else if (statistic == "W") "difference of medians" else "difference"
-  words <- paste0(statistic, df, " = ", near(value), ", p ", p.words(p), if (lines > 1) known(paste(whose, "p"), p_corrected, p.words(p_corrected)),
-                  known("epsilon", epsilon), known(middle, difference), interval, known(paste(size, "="), effect_size))
-  cat("  ", effect, ": ", if (note == "" || !is.na(p)) words else if (statistic == "note") note else paste("not tested:", note),
-      if (!is.na(n)) paste(", n =", n), if (note != "" && !is.na(p)) paste0(", ", note), "\n", sep = "")
-}
+                   effect_size = NA, difference = NA, least = NA, most = NA, note = "", kind = if (is.na(p)) "not made" else "test")
+  results <<- rbind(results, data.frame(kind, test, effect, statistic, df1, df2, value, p, p_corrected, correction, epsilon, size, effect_size, n, difference, least, most, note,
+                                        p_across = NA, across = ""))
+remark <- function(test, effect, n, note) result(test, effect, "", NA, NA, n, note = note, kind = "note")
+counted <- function(n, word) paste0(n, " ", word, if (n != 1) "s")
 # Signed ranks, or of two arguments Mann and Whitney's: p of all signs, or of all ways to divide the ranks, also where they are tied. Of more ranks R's own.
 rank.test <- function(a, b = NULL) {
   t <- if (is.null(b)) wilcox.test(a) else wilcox.test(a, b)
@@ -131,7 +119,7 @@ fewest.different <- 3 # people whose ranks say anything of all
 do.differ.few <- function(differ) sum(differ) < min(fewest.different, length(differ))
 few.differ <- function(differ) paste("of", length(differ), "people", sum(differ), if (sum(differ) == 1) "differs" else "differ", "between the levels: expected", fewest.different, "or more")
 # What a test by ranks did not count, and how it came to its p.
-ranks.note <- function(t, equal, words) paste(c(if (equal > 0) paste(equal, "of them", words), if (grepl("rank", t$method) && !grepl("exact", t$method)) "p by a normal approximation"), collapse = ", ")
+ranks.note <- function(t, equal, words) paste(c(if (equal > 0) paste0(words, ": ", equal), if (grepl("rank", t$method)) if (grepl("exact", t$method)) "exact p" else "p by normal approximation"), collapse = "; ")
 # A test that R refuses is a line that says why; the others go on.
 attempt <- function(test, effect, run) tryCatch(run, error = function(e) result(test, effect, "", NA, NA, NA, note = gsub("\n", "", conditionMessage(e), fixed = TRUE)))
 values.lacking <- function(people) paste("values are lacking of", paste(people, collapse = ", "))
@@ -139,26 +127,18 @@ tell.lacking <- function(test, cells) { # once of the same cells
   lacking <- c(attr(cells, "lacking"), attr(cells, "absent")); unknown <- attr(cells, "unknown")
   of <- function(test) sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|.* test|pairs by (t|ranks)) of ", "", test))
   if (any(results$effect == "left out" & of(results$test) == of(test))) return(invisible())
-  if (length(unknown) > 0) result(test, "left out", "note", NA, NA, nrow(cells), note = paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of tests by group and of those within people beside it"))
-  if (length(lacking) > 0) result(test, "left out", "note", NA, NA, nrow(cells), note = values.lacking(lacking))
+  if (length(unknown) > 0) remark(test, "left out", nrow(cells), paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of tests by group and of those within people beside it"))
+  if (length(lacking) > 0) remark(test, "left out", nrow(cells), values.lacking(lacking))
 }
 
-# Of each group its means of the levels within participants, where they are few.
-tell.means <- function(cells, group) if (nlevels(group) * ncol(cells) <= 24) for (g in levels(group)) {
-  own <- cells[group == g, , drop = FALSE]
-  cat("  ", g, " (n = ", nrow(own), "), means: ", paste0(colnames(cells), " ", vapply(colMeans(own), function(y) format(signif(y, 4), digits = 4), ""),
-    if (nrow(own) > 1) paste0(" (standard deviation ", vapply(apply(own, 2, sd), function(y) format(signif(y, 3), digits = 3), ""), ")"), collapse = ", "), "\n", sep = "")
-}
 # Means of participants' cells, within and between them: each effect by its orthonormal contrasts of the cells, against its own error; between people by
 # sums of squares of type III. p is corrected by Greenhouse and Geisser.
-anova.test <- function(test, file, measure, within = character(), where = character(), between = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
+anova.test <- function(test, file, measure, within = character(), where = character(), between = character()) { attempt(test, "all", {
   rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
   tell.lacking(test, cells)
   people <- setNames(lapply(between, function(b) of.people(file, measure, b, rownames(cells), where)), sprintf("b%d", seq_along(between)))
   x <- if (length(between) > 0) model.matrix(as.formula(paste("~", paste(names(people), collapse = "*"))), as.data.frame(people), lapply(people, function(f) "contr.sum"))
        else matrix(1, n, 1)
-  if (length(between) > 0) cat("  between people: sums of squares of type III, contrasts that sum to 0\n", sep = "")
-  if (length(between) > 0 && length(within) > 0) tell.means(cells, interaction(people, sep = ":", drop = TRUE))
   terms <- if (length(between) > 0) attr(x, "assign") else 0
   labels <- c("", vapply(unlist(lapply(seq_along(between), function(m) combn(between, m, paste, collapse = ":")), use.names = FALSE), identity, ""))
   left.df <- n - qr(x)$rank
@@ -186,23 +166,23 @@ anova.test <- function(test, file, measure, within = character(), where = charac
       f <- (squares / df) / (left / (d * left.df))
       p <- function(epsilon) pf(f, epsilon * df, epsilon * d * left.df, lower.tail = FALSE)
       corrected <- if (d > 1) list(p(epsilon), "Greenhouse-Geisser", epsilon) else list(NA, "", NA)
-      result(test, name, "F", f, p(1), n, df, d * left.df, corrected[[1]], corrected[[2]], corrected[[3]], "generalised eta squared", squares / (squares + errors))
+      result(test, name, "F", f, p(1), n, df, d * left.df, corrected[[1]], corrected[[2]], corrected[[3]], "generalised eta squared", squares / (squares + errors), note = if (length(between) > 0) "type III, sum contrasts" else "")
     }
     if (d > 1 && left.df >= d) attempt(test, paste(own, "sphericity"), {
       m <- mauchly.test(lm(cells ~ x - 1), T = t(contrasts[[i]]))
       if (is.nan(m$p.value)) stop("nobody differs from the others in it")
-      result(test, paste(own, "sphericity"), "Mauchly W", m$statistic, m$p.value, n)
+      result(test, paste(own, "sphericity"), "Mauchly W", m$statistic, m$p.value, n, kind = "assumption")
     })
   }
   if (length(between) > 0) attempt(test, "groups homogeneity", {
     cell <- interaction(people); own <- rowMeans(cells); away <- abs(own - ave(own, cell, FUN = median)); a <- anova(lm(away ~ cell))
-    if (a[2, 2] > 1e-20 * sum(away^2)) result(test, "groups homogeneity", "Levene's F of medians", round(a[1, 4], 12), a[1, 5], n, a[1, 1], a[2, 1])
+    if (a[2, 2] > 1e-20 * sum(away^2)) result(test, "groups homogeneity", "Levene's F of medians", round(a[1, 4], 12), a[1, 5], n, a[1, 1], a[2, 1], kind = "assumption")
   })
   of <- if (length(between) > 0) ", as deviations from the group's mean"
   normality <- if (ncol(cells) > 2) "residuals normality" else paste0("normality of the ", if (ncol(cells) == 2) "differences" else "participants' means", of)
   attempt(test, normality, {
     left <- as.matrix(lm.fit(x, cells)$residuals)
-    shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n, note = if (length(left) > n) paste("of", length(left), "residuals of people and cells") else "") }
+    shapiro <- function(effect, left) { if (max(abs(left)) <= 1e-12 * max(abs(cells), 1e-300)) stop("nobody differs from the others in it"); s <- shapiro.test(left); result(test, effect, "Shapiro-Wilk W", s$statistic, s$p.value, n, kind = "assumption", note = if (length(left) > n) paste("residuals:", length(left)) else "") }
     # of two cells the differences: what is left of both of them is the same with two signs
     shapiro(normality, if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
     if (length(between) > 0 && ncol(cells) > 1) shapiro(paste0("normality of the participants' means", of), rowMeans(left))
@@ -221,7 +201,7 @@ mixed <- function(test, file, measure, within, between, where) {
   several <- unlist(lapply(seq_len(length(within) - 1), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE) # all of them are what is left
   random <- function(id, names) c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), ""))
   parts <- setNames(random("participant", within), random("id", sprintf("w%d", seq_along(within))))
-  cat("  mixed model: by maximum likelihood, each effect by the likelihood ratio of the models with and without it, contrasts that sum to 0, random ", paste0("(1 | ", parts, ")", collapse = " + "), "\n", sep = "")
+  remark(test, "mixed model", length(unique(d$id)), paste0("maximum likelihood, likelihood ratio of the models with and without the effect, sum contrasts, random ", paste0("(1 | ", parts, ")", collapse = " + ")))
   model <- as.formula(paste("y ~ 0 + x +", paste0("(1 | ", names(parts), ")", collapse = " + ")))
   fit <- function(x) {
     m <- suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE)); variances <- vapply(lme4::VarCorr(m), `[`, 0, 1)
@@ -231,16 +211,14 @@ mixed <- function(test, file, measure, within, between, where) {
   for (t in seq_along(effects)) { label <- paste(factors[effects[[t]]], collapse = ":"); attempt(test, paste(label, "mixed model"), {
     without <- paste("without", label); less <- fit(x[, terms != t, drop = FALSE]); chi <- max(0, 2 * (all$l - less$l))
     error <- paste(c("id", own[intersect(effects[[t]], seq_along(within))]), collapse = ":") # the highest effect within people has the residual
-    if (error %in% names(c(all$zero, less$zero))) stop("variance of ", parts[[error]], ", its error, is estimated as 0 in the model ", if (error %in% names(all$zero)) "with all effects" else without, ", so cells would count as people")
+    if (error %in% names(c(all$zero, less$zero))) stop("variance of ", parts[[error]], ", its error, is estimated as 0 in the model ", if (error %in% names(all$zero)) "with all effects" else without)
     result(test, paste(label, "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t),
-           note = paste(c("p too small where people are few", if (setequal(all$zero, less$zero)) singular(all$zero, "with it and in that without") else c(singular(all$zero, "with all effects"), singular(less$zero, without)), if (all$failed || less$failed) "did not converge"), collapse = ", "))
+           note = paste(c("chi-squared approximation", if (setequal(all$zero, less$zero)) singular(all$zero, "with it and in that without") else c(singular(all$zero, "with all effects"), singular(less$zero, without)), if (all$failed || less$failed) "did not converge"), collapse = ", "))
   }) }
 }
-# What a level's value is beside other factors.
-tell.levels <- function(factors) if (length(factors) > 1) cat("  a participant's value of a level is the mean over those of the other factors within people, each of which counts alike, however many trials it has\n", sep = "")
-friedman <- function(test, file, measure, within = character(), where = character(), between = character(), tested = c(within, between)) { cat(test, "\n", sep = ""); attempt(test, "all", {
+friedman <- function(test, file, measure, within = character(), where = character(), between = character(), tested = c(within, between)) { attempt(test, "all", {
   rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
-  tell.lacking(test, cells); tell.levels(c(within, between))
+  tell.lacking(test, cells)
   for (i in which(within %in% tested)) attempt(test, within[i], {
     own <- even(by.level(rows, cells, i)); differ <- apply(own, 1, function(y) any(y != y[1]))
     t <- friedman.test(own)
@@ -256,10 +234,9 @@ friedman <- function(test, file, measure, within = character(), where = characte
 }) }
 # Every two levels of each factor, within participants or between them; the correction is for all lines of a factor. Ranks of levels within are signed
 # ranks of differences, or, not `paired`, those of Mann and Whitney, as if other people had given each level.
-pairs.test <- function(test, file, measure, within = character(), where = character(), by = "t", correction = "holm", between = character(), paired = TRUE) {
-  cat(test, "\n", sep = ""); attempt(test, "all", {
+pairs.test <- function(test, file, measure, within = character(), where = character(), by = "t", correction = "holm", between = character(), paired = TRUE) { attempt(test, "all", {
   rows <- rows.of(file, measure, within, where, between); cells <- cells.of(rows); n <- nrow(cells)
-  tell.lacking(test, cells); tell.levels(c(within, between))
+  tell.lacking(test, cells)
   if (by == "t" && length(between) > 0 && n <= nlevels(interaction(lapply(between, function(b) of.people(file, measure, b, rownames(cells), where)), drop = TRUE))) stop("expected more people than groups")
   for (f in c(within, between)) {
     is.within <- f %in% within; is.signed <- is.within && paired
@@ -274,13 +251,13 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
         se <- deviation * sqrt(1 / length(a) + 1 / length(b)); df <- n - length(own); t <- (mean(a) - mean(b)) / se
         return(list(p = 2 * pt(-abs(t), df), value = t, df = df, size = "d", effect = (mean(a) - mean(b)) / deviation, difference = mean(a) - mean(b),
                     interval = mean(a) - mean(b) + c(-1, 1) * qt(0.975, df) * se, n = length(a) + length(b),
-                    note = if (length(own) > 2) paste("its error that of all", n)))
+                    note = if (length(own) > 2) paste("pooled SD of all", n)))
       }
       if (by == "t" && nlevels(groups) > 1) { # as the analysis of variance has it: each group counts alike
         m <- lm(a - b ~ groups, contrasts = list(groups = "contr.sum")); s <- coef(summary(m))[1, ]; df <- m$df.residual
         if (sum(m$residuals^2) <= 1e-26 * sum(a^2 + b^2)) return(list(p = NaN, n = n))
         return(list(p = s[[4]], value = s[[3]], df = df, size = "d_z", effect = s[[1]] / sigma(m), difference = s[[1]], interval = s[[1]] + c(-1, 1) * qt(0.975, df) * s[[2]], n = n,
-                    note = "each group counts alike; SD within groups"))
+                    note = "unweighted mean of the groups; SD within groups"))
       }
       size <- max(abs(c(a, b)), 1e-300); different <- if (is.signed) even(a - b, size)
       t <- tryCatch(if (by == "t") t.test(a, b, paired = TRUE) else if (is.signed) rank.test(different) else rank.test(even(a, size), even(b, size)), error = function(e) list(p.value = NaN))
@@ -290,45 +267,39 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
       if (by == "t") return(modifyList(out, list(df = t$parameter, size = "d_z", effect = mean(a - b) / sd(a - b), difference = mean(a - b), interval = t$conf.int)))
       share <- if (is.signed) t$statistic / sum(seq_len(sum(different != 0))) else t$statistic / (length(a) * length(b))
       modifyList(out, list(effect = 2 * share - 1, difference = if (is.signed) median(a - b) else even(median(a) - median(b), size) * size,
-                           note = ranks.note(t, if (is.signed) sum(different == 0) else 0, "without a difference")))
+                           note = paste0(ranks.note(t, if (is.signed) sum(different == 0) else 0, "differences of 0"), if (is.signed) "; difference: median of the differences" else "; difference: of the medians")))
     })
     ps <- sapply(tests, function(one) one$p)
     corrected <- p.adjust(ps, correction); tested <- sum(!is.nan(ps)) # a pair that cannot be tested is no chance of a false finding
-    if (tested > 0 && tested < length(ps)) cat("  ", f, ": ", c(holm = "Holm's", bonferroni = "Bonferroni's")[correction], " correction is over the ", tested, " of ", length(ps), " pairs that could be tested\n", sep = "")
-    if (!is.within) cat("  ", f, ": ", paste0(names(own), " n = ", lengths(own), sapply(own, function(y) paste(if (by == "t") ", mean" else ", median", format(signif(if (by == "t") mean(y) else median(y), 4), digits = 4))),
-                        sapply(own, function(y) if (by == "t" && length(y) > 1) paste(", standard deviation", format(signif(sd(y), 3), digits = 3)) else ""), collapse = "; "), "\n", sep = "")
+    family <- paste0(c(holm = "Holm, ", bonferroni = "Bonferroni, ")[correction], counted(tested, "test"))
+    for (l in unique(unlist(two))) { y <- level.of(l); result(sub("^pairs by [a-z]+", "levels", test), paste0(f, "=", l), if (by == "t") "mean" else "median", if (by == "t") mean(y) else median(y), NA, length(y),
+      size = if (by == "t") "SD" else "", effect_size = if (by == "t" && length(y) > 1) sd(y) else NA, kind = "mean") }
     for (k in seq_along(tests)) {
       one <- tests[[k]]; effect <- paste0(f, ": ", two[[k]][1], " - ", two[[k]][2])
       if (is.nan(ps[k])) result(test, effect, "", NA, NA, one$n, note = c(one$note, "the differences do not vary")[1])
-      else result(test, effect, if (by == "t") "t" else if (is.signed) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], correction, size = one$size,
-                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], note = c(one$note, "")[1], lines = tested)
+      else result(test, effect, if (by == "t") "t" else if (is.signed) "V" else "W", one$value, ps[k], one$n, one$df, NA, corrected[k], family, size = one$size,
+                  effect_size = one$effect, difference = one$difference, least = one$interval[1], most = one$interval[2], note = c(one$note, "")[1])
     }
-    if (by == "t" && is.within && tested > 0) for (alpha in unique(c(0.05, 0.05 / tested))) attempt(test, "power", {
-      of <- if (nlevels(groups) > 1) table(groups) else n
-      lacks <- function(d) pt(qt(1 - alpha / 2, n - length(of)), n - length(of), d * length(of) / sqrt(sum(1 / of)), lower.tail = FALSE) - 0.8
-      found <- if (lacks(10) < 0) "no d_z of up to 10" else paste("d_z =", round(uniroot(lacks, c(0, 10), tol = 1e-9)$root, 2))
-      cat("  power: n = ", n, if (length(of) > 1) paste0(" in ", length(of), " groups, ", n - length(of), " degrees of freedom,"), " finds ", found, " in 80 % of studies at p < ", signif(alpha, 2), "\n", sep = "")
-    })
   }
 }) }
 # Participants' shares of an alternative against chance: of all trials, each level of a factor, each combination of levels. Signed ranks; where all lean
 # equally far, as where they are unanimous, exact binomials of how many lean to it. Of each alternative the trials count that offered it.
-choices <- function(test, file, factors = NULL, where = character()) { cat(test, "\n", sep = ""); attempt(test, "all", {
+choices <- function(test, file, factors = NULL, where = character()) { attempt(test, "all", {
   d <- where.is(if (is.data.frame(file)) file else table.of(file), where)
   if ("task" %in% names(d)) d <- d[d$task == "choose", ]
   if (!("choice" %in% names(d))) d$choice <- d$response
   d <- d[d$choice != "", ]
   d$offered <- offered.of(d); sets <- in.order(d$offered); words <- words.in(sets)
-  if (any(sets == "")) stop("which alternatives were offered is not known: no stimulus has all answers, nor has each as many (a column parts, as A|B, tells them)")
+  if (any(sets == "")) stop("which alternatives were offered is not known: no stimulus has all answers, nor has each as many")
   if (length(words) < 2) stop(paste("expected two alternatives or more, found", length(words)))
-  for (s in sets) cat("  chance is ", format(100 / length(words.in(s)), digits = 3), " %, of ", length(words.in(s)), " alternatives, ",
-                      if (any(parts.offered(d) != "")) "which were offered" else if (length(sets) > 1) "the answers to their stimuli" else "the answers that there are", ": ", paste(words.in(s), collapse = ", "), "\n", sep = "")
+  for (s in sets) remark(test, "chance", length(unique(d$participant[d$offered == s])), paste0("1 of ", length(words.in(s)), ", ", if (any(parts.offered(d) != "")) "offered" else if (length(sets) > 1) "answers to a stimulus" else "answers given",
+                             ": ", paste(words.in(s), collapse = ", ")))
   d$k <- lengths(lapply(d$offered, words.in))
   there <- union(everybody, d$participant); gone <- character()
   if (is.null(factors)) { # the same rows as where levels are compared
     lone <- lone.levels(d, c("group", "condition", "stimulus")); gone <- lone$gone
     alike <- alike.for(lone$d, design.of(lone$d)); d <- alike$d; design <- alike$design; factors <- c(design$within, design$between)
-    for (note in c(lone$notes, design$notes)) result(test, "factors", "note", NA, NA, length(unique(d$participant)), note = note)
+    for (note in c(lone$notes, design$notes)) remark(test, "factors", length(unique(d$participant)), note)
   } else design <- list(within = Filter(function(f) any(tapply(level(d, f), d$participant, function(l) length(unique(l))) > 1), factors))
   cell <- do.call(paste, c(list(character(nrow(d))), lapply(design$within, function(f) level(d, f)), sep = "\r"))
   whole.in <- function(of) { n <- tapply(cell[of], d$participant[of], function(own) length(unique(own))); names(n)[n == length(unique(cell[of]))] }
@@ -336,11 +307,11 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   words.of <- function(f) { words <- paste0(f, "=", level(d, f)); words[f == "group" & d$participant %in% unknown] <- NA; words }
   marks <- lapply(factors, words.of)
   if (length(factors) > 1) { all <- do.call(paste, marks); all[d$participant %in% unknown] <- NA; marks <- c(marks, list(all)) }
-  if (length(unknown) > 0) result(test, "left out", "note", NA, NA, length(unique(d$participant)), note = paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of lines of a group"))
-  if (length(absent <- setdiff(there, c(d$participant, gone))) > 0) result(test, "left out", "note", NA, NA, length(unique(d$participant)), note = values.lacking(absent))
-  if (length(lacking <- setdiff(d$participant, whole.in(TRUE))) > 0) result(test, "left out", "note", NA, NA, length(unique(d$participant)), note = paste0(values.lacking(lacking), ": left out of lines over what they lack"))
+  if (length(unknown) > 0) remark(test, "left out", length(unique(d$participant)), paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of lines of a group"))
+  if (length(absent <- setdiff(there, c(d$participant, gone))) > 0) remark(test, "left out", length(unique(d$participant)), values.lacking(absent))
+  if (length(lacking <- setdiff(d$participant, whole.in(TRUE))) > 0) remark(test, "left out", length(unique(d$participant)), paste0(values.lacking(lacking), ": left out of lines over what they lack"))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
-  if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) result(test, "factors", "note", NA, NA, length(unique(d$participant)), note = paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
+  if (!("task" %in% names(d)) && length(unique(d$level_db)) > 1) remark(test, "factors", length(unique(d$participant)), paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over"))
   here <- function(group) if (group == "all") rep(TRUE, nrow(d)) else Reduce(`|`, lapply(marks, function(m) m %in% group))
   lines <- do.call(rbind, lapply(groups, function(group) { # of two, one has the other's share; none where chances differ
     own <- d[here(group), ]; one <- words.in(own$offered); if (length(one) == 2) one <- one[1]
@@ -358,12 +329,12 @@ choices <- function(test, file, factors = NULL, where = character()) { cat(test,
   }, lines$group, lines$word)
   ps <- sapply(tests, function(one) if (is.null(one$t)) NA else one$t$p.value)
   corrected <- p.adjust(ps, "holm")
-  if ((tested <- sum(!is.na(ps))) > 1) cat("  Holm's correction is over these ", tested, " lines that could be tested\n", sep = "")
+  family <- paste("Holm,", counted(sum(!is.na(ps)), "test"))
   for (i in seq_along(tests)) {
     one <- tests[[i]]; effect <- if (length(words) == 2) lines$group[i] else paste0(lines$word[i], ", ", lines$group[i])
     if (is.na(ps[i])) result(test, effect, "V", NA, NA, one$n, note = "fewer than two participants with all of it, or shares of chance alone")
-    else result(test, effect, if (is.null(one$t$parameter)) "V" else paste("exact binomial, of", one$t$parameter, "people who lean to one side those to", lines$word[i]), one$t$statistic, ps[i], one$n, p_corrected = corrected[i],
-                correction = "holm", size = paste("share of", lines$word[i]), effect_size = one$share, note = ranks.note(one$t, one$equal, "at chance"))
+    else result(test, effect, if (is.null(one$t$parameter)) "V" else "people above chance, exact binomial", one$t$statistic, ps[i], one$n, p_corrected = corrected[i],
+                correction = family, size = paste("share of", lines$word[i]), effect_size = one$share, note = if (is.null(one$t$parameter)) ranks.note(one$t, one$equal, "people at chance") else paste("people not at chance:", one$t$parameter))
   }
 }) }
 words.in <- function(sets) sort(setdiff(unlist(strsplit(unique(sets), "|", fixed = TRUE)), ""), method = "radix")
@@ -463,7 +434,7 @@ alike.for <- function(d, design) {
   if (any(full == cells)) full[] <- cells # a level that nobody has with all of them counts for nobody
   kept <- number(own)[own] == full[block]; people <- unique(d$participant[kept])
   over <- paste(design$over, collapse = ", "); applies <- length(people) >= if (are.items) length(whole) / 2 else 2
-  design$notes <- sub("level by level", if (applies) "those that each has" else "unequal ones, which is right where they were balanced", design$notes)
+  design$notes <- sub("level by level", if (applies) "those that each has" else "unequal levels of people", design$notes)
   if (applies) {
     gone <- unique(data.frame(who = d$participant, block)[!kept & d$participant %in% people, ]); by <- split(gone$who, gone$block)
     design$notes <- c(design$notes, if (length(by) > most.levels) paste0(over, ": ", nrow(gone), " levels of ", length(unique(gone$who)), " participants left out, who lack them elsewhere")
@@ -493,7 +464,6 @@ lone.groups <- function(d, design) {
 # ranks. Magnitudes: ranks of one factor; of several the analysis of variance of their logarithms. No ordinal mixed model of trials: with an intercept for
 # each person alone, 12 of 60 studies without an effect have one at 0.05 (Friedman's test: 4), and with one for each person's level it takes half a minute.
 most.levels <- 12 # of which every two are compared
-ranks.told <- FALSE
 as.published <- FALSE # a study -thesis: pairs as 4.2.2 and 5.2.2 have them, by t or Mann and Whitney's ranks, with Bonferroni's correction
 spoken <- c(percent_correct = "percent correct", distance = "distance from the target", variable = "variable error", jnd = "JND")
 everybody <- character() # who has trials
@@ -504,17 +474,16 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   below <- if (kind == "magnitudes") sum(as.numeric(d[[measure]]) < 0) else 0
   if (below > 0) { kind <- "scores"; what <- sub("magnitudes", "values", what) }
   zeros <- if (kind == "magnitudes") d[as.numeric(d[[measure]]) == 0, ]
-  if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("logarithms of", what) }
+  if (kind == "magnitudes") { d <- d[as.numeric(d[[measure]]) > 0, ]; d[[measure]] <- log10(as.numeric(d[[measure]])); what <- paste("log10 of", what) }
   lone <- lone.levels(d, columns); d <- lone$d
   design <- design.of(d, columns); design$notes <- c(lone$notes, design$notes)
   for (f in over) if ((k <- length(unique(level(d, f)))) > 1) { design$over <- c(design$over, f); design$notes <- c(design$notes, paste0(f, " (", k, "): averaged over, level by level")) }
-  if (below > 0) design$notes <- c(design$notes, paste(below, if (below == 1) "value is" else "values are", "below 0, so these are no magnitudes: compared as they are (a column task, with adjust, tells of levels that were set)"))
+  if (below > 0) design$notes <- c(design$notes, paste0("values below 0: ", below, ", so all compared as values"))
   if (kind == "magnitudes" && length(unique(d$level_db)) > 1) { design$over <- c(design$over, "level_db"); design$notes <- c(design$notes, paste0("levels (", length(unique(d$level_db)), ", column level_db of trials.csv): averaged over, level by level")) }
-  if (NROW(zeros) > 0) design$notes <- c(design$notes, paste0(nrow(zeros), if (nrow(zeros) == 1) " magnitude" else " magnitudes", " of 0, which has no logarithm, left out: ",
+  if (NROW(zeros) > 0) design$notes <- c(design$notes, paste0(counted(nrow(zeros), "magnitude"), " of 0 left out: ",
     paste(unique(do.call(paste, zeros[intersect(c("participant", "condition", "stimulus", if (length(unique(d$level_db)) > 1) "level_db"), names(zeros))])), collapse = ", ")))
   alike <- alike.for(d, design); groups <- lone.groups(alike$d, alike$design); d <- groups$d; design <- groups$design; factors <- c(design$within, design$between)
-  if (length(design$notes) > 0) cat(what, "\n", sep = "")
-  for (note in design$notes) result(what, "factors", "note", NA, NA, length(unique(d$participant)), note = if (length(factors) > 0) note else sub("averaged over.*", "not tested", note))
+  for (note in design$notes) remark(what, "factors", length(unique(d$participant)), if (length(factors) > 0) note else sub("averaged over.*", "not tested", note))
   if (length(factors) == 0) return(invisible())
   if (length(design$over) > 0) { # a participant's mean of each level first: not the level that has most rows
     y <- if (measure %in% names(d)) as.numeric(d[[measure]]) else as.numeric(d[[column]] == sub("^[^=]*=", "", measure))
@@ -528,7 +497,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   if (kind == "scores") anova.test(paste("analysis of variance of", name), d, measure, design$within, between = design$between)
   else { # of two levels a pair is the whole test
     more <- Filter(function(f) length(setdiff(unique(level(d, f)), if (f == "group") c("", NA))) > 2, factors)
-    if (length(factors) > 1 && !ranks.told) { cat("by ranks each factor is tested alone: interactions are not tested\n"); ranks.told <<- TRUE }
+    if (length(factors) > 1) remark(what, "factors", length(unique(d$participant)), "interactions: not tested by ranks")
     if (length(more) > 0)
       friedman(paste(paste(c("Friedman's", "Kruskal and Wallis'")[c(any(design$within %in% more), any(design$between %in% more))], collapse = " and "), "test of", what, "by", paste(more, collapse = ", ")),
                d, measure, design$within, between = design$between, tested = more)
@@ -536,7 +505,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   if (length(few(factors)) > 0)
     pairs.test(paste("pairs by", if (kind == "scores") "t" else "ranks", "of", name), d, measure, few(design$within), by = if (kind == "scores") "t" else "ranks",
                correction = if (as.published) "bonferroni" else "holm", between = few(design$between), paired = !as.published)
-  if (length(few(factors)) < length(factors)) result(paste("pairs of", name), "factors", "note", NA, NA, length(unique(d$participant)), note = "more than 12 levels")
+  if (length(few(factors)) < length(factors)) remark(paste("pairs of", name), "factors", length(unique(d$participant)), "more than 12 levels")
 }
 # Several scales, or shares of several alternatives (`all`), ask one question each: Holm's correction over the tests of an effect that could be made. A
 # pair that is all of a factor, as of two levels by ranks, is its test. Other pairs are of alternatives one family, all of a factor; of scales each its own.
@@ -545,11 +514,10 @@ across <- function(tests, what, all, pairs = TRUE) {
   name <- sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|(Friedman's|Kruskal and Wallis'|Friedman's and Kruskal and Wallis') test|pairs by ranks) of ", "", lines$test))
   p <- ifelse(lines$correction == "Greenhouse-Geisser", lines$p_corrected, lines$p)
   ranks <- lines$statistic %in% c("V", "W"); factor <- sub(": .*", "", lines$effect); pair <- ranks & paste(name, factor) %in% paste(name, factor)[!ranks]
-  effect <- ifelse(pair, paste("pairs of", factor), ifelse(ranks, factor, lines$effect)); words <- ifelse(pair, paste(name, substring(lines$effect, nchar(factor) + 3)), name)
+  effect <- ifelse(pair, paste("pairs of", factor), ifelse(ranks, factor, lines$effect))
   for (one in unique(effect[pairs | !pair])) {
-    i <- which(effect == one); results$p_across[at[i]] <<- p.adjust(p[i], "holm"); p.across <- results$p_across[at[i]]
-    if (length(i) > 1 || (length(all) > 1 && !grepl("mixed model", one))) cat("over ", what, ", ", one, ": Holm's p of ", length(i), if (length(i) == 1) " test: " else " tests: ", paste(words[i], ifelse(p.across < 1e-4, "< 0.0001",
-                             vapply(p.across, digits.of, "")), collapse = ", "), if (length(no <- setdiff(all, name[i])) > 0) paste("; none was made of", paste(no, collapse = ", ")), "\n", sep = "")
+    i <- which(effect == one); results$p_across[at[i]] <<- p.adjust(p[i], "holm")
+    results$across[at[i]] <<- paste0("Holm, ", counted(length(i), "test"), " over ", what, if (length(no <- setdiff(all, name[i])) > 0) paste0(", not made: ", paste(no, collapse = ", ")))
   }
 }
 # Objects that were rated side by side are levels of a factor; one that was also felt openly, the hidden reference, is looked at.
@@ -560,8 +528,8 @@ side.by.side <- function(own, objects, words) {
   if (length(first) != 1 || any(lengths(strsplit(own$parts, "|", fixed = TRUE)) == length(objects))) return(invisible())
   below <- tapply(as.numeric(own[[first]]) < 90, own$participant, mean)
   who <- names(below)[below > 0.15]
-  if (length(who) > 0) result(paste0("hidden reference", words), "hidden reference", "note", NA, NA, length(below), note = paste0(first,
-    " unnamed was rated below 90 in more than 15 % of trials by ", paste(who, collapse = ", "), ", whom ITU-R BS.1534 would exclude: not excluded here"))
+  if (length(who) > 0) remark(paste0("hidden reference", words), "hidden reference", length(below), paste0(first,
+    " unnamed was rated below 90 in more than 15 % of trials (ITU-R BS.1534) by ", paste(who, collapse = ", "), ": not excluded"))
 }
 # Stimuli that were compared in pairs: means over people as a matrix, and a map by classical scaling. Scores whose scale begins with "dis" or "diff"
 # are distances; of others what they lack of the scale's end is.
@@ -573,7 +541,6 @@ in.pairs <- function(own, scale, words, end) for (one in split(own, if ("conditi
   m <- matrix(NA, length(all), length(all), dimnames = list(all, all))
   m[cbind(means$a, means$b)] <- means$y; m[cbind(means$b, means$a)] <- means$y
   similarity <<- rbind(similarity, data.frame(scale, session = sub("^ in ", "", words), condition, stimulus = all, m, check.names = FALSE, row.names = NULL))
-  cat("means of ", scale, words, " in pairs", if (condition != "") paste0(", ", condition), "\n", sep = "")
   attempt(paste0("map of ", scale, words), condition, {
     if (length(all) < 3) stop("expected three stimuli or more")
     is.distance <- grepl("^(dis|diff)", scale)
@@ -583,8 +550,7 @@ in.pairs <- function(own, scale, words, end) for (one in split(own, if ("conditi
     at <- map$points[, seq_len(min(2, sum(map$eig > 1e-9 * max(abs(map$eig))))), drop = FALSE] # rounding makes no dimension
     if (ncol(at) < 1) stop("no map: no eigenvalue is positive")
     stress <- sqrt(sum((dist(at) - as.dist(d))^2) / sum(dist(at)^2)) # Kruskal's
-    cat("  ", if (ncol(at) < 2) "no map in two dimensions: only one eigenvalue is positive; in one dimension" else "map in two dimensions", ": stress-1 ", signif(stress, 3), ", distances are ", if (is.distance) "the means" else paste(end, "less the means"), "\n", sep = "")
-    places <<- rbind(places, data.frame(scale, session = sub("^ in ", "", words), condition, stimulus = all, x = at[, 1], y = if (ncol(at) < 2) NA else at[, 2], stress))
+    places <<- rbind(places, data.frame(scale, session = sub("^ in ", "", words), condition, stimulus = all, x = at[, 1], y = if (ncol(at) < 2) NA else at[, 2], stress, distance = if (is.distance) "mean" else paste(end, "- mean")))
   })
 }
 # How far a participant's answers to the same target scatter around their own mean: what the size of a perceived grid rests on.
@@ -596,7 +562,7 @@ scatter.of <- function(own) {
 }
 # As Table 4.1 of the thesis has it, of its own study alone: every trial is a unit, and people are a block. Answers of one person are no independent
 # units, so its p are too small.
-single.trials <- function(test, own, measure) { cat(test, "\n", sep = ""); attempt(test, "all", {
+single.trials <- function(test, own, measure) { attempt(test, "all", {
   rows <- rows.of(own, measure, c("target_column", "target_row"))
   a <- anova(lm(y ~ id + w1 * w2, rows)); left <- nrow(a)
   for (i in 2:(left - 1)) result(test, c("", "target_column", "target_row", "target_column:target_row")[i], "F", a$F[i], a$`Pr(>F)`[i], nrow(rows), a$Df[i], a$Df[left])
@@ -610,10 +576,8 @@ study <- function(study, scales = character(), points = character(), half = "thr
   is.told <- "task" %in% names(d); everybody <<- unique(d$participant); trials <<- d; repeated <<- within
   if (is.told) for (column in setdiff(c("session", "correct", "level_db"), names(d))) d[[column]] <- rep("", nrow(d))
   if (!is.told) points <- union(points, Filter(function(scale) all(d[[scale]] %in% c("", "NA") | suppressWarnings(as.numeric(d[[scale]])) %in% 1:7), scales)) # of other programs
-  if (is.told) for (s in Filter(function(s) length(s) > 1, lapply(split(d$session, d$task), unique)))
-    cat("sessions ", paste(s, collapse = ", "), " are not compared with each other: a call that names the factor session does\n", sep = "")
   for (column in c("condition", "stimulus")) if (any(grepl("\\.1$", factor.names(column, d))))
-    cat(column, ".1, ", column, ".2: the first and the second part of ", d[[column]][1], ", and so on\n", sep = "")
+    remark(column, "factors", length(everybody), paste0(column, ".1, ", column, ".2: first and second part of ", d[[column]][1], " and so on"))
   # a trial that ran out of time has no other answer
   for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks", c("group", "condition"))
   # rows of a task, session by session where there are several; of tables without tasks those with the column
@@ -633,15 +597,13 @@ study <- function(study, scales = character(), points = character(), half = "thr
   from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) parts.in(table.of(file), function(own, session) {
     name <- function(m) if (m %in% names(spoken)) spoken[[m]] else m
     what <- paste0(paste(vapply(measures, name, ""), collapse = ", "), words)
-    if (!is.told && length(runs.of(d)) > 0) cat(what, "\n", sep = "")
-    if (!is.told) for (f in runs.of(d)) result(what, "factors", "note", NA, NA, length(unique(own$participant)), note = paste0(runs.words(d, f), "all trials together"))
+    if (!is.told) for (f in runs.of(d)) remark(what, "factors", length(unique(own$participant)), paste0(runs.words(d, f), "all trials together"))
     for (m in measures) compare(paste0(name(m), words, session), own, m, columns = columns)
   })
   spoken <- c(spoken, threshold = half)
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
-    cat("variable error: standard deviation of a participant's answers around their own mean of a target, both axes together\n")
     compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"), over = "target")
     targets <- c("target_y", "target_x"); if (!all(targets %in% names(own))) targets <- c("target_row", "target_column") # which number those of other programs
     for (t in targets) own[[t]] <- as.character(signif(as.numeric(own[[t]]), 4))
@@ -708,5 +670,5 @@ finish <- function(study) {
     write.table(table[[1]], table[[2]], append = TRUE, sep = ",", row.names = FALSE, na = "", qmethod = "double")
   }
   if (nrow(results) > 0) write.table(results, "tests.csv", append = TRUE, sep = ",", row.names = FALSE, na = "", qmethod = "double")
-  cat("tests.csv  ", nrow(results), " lines\n", sep = "")
+  if (!("quiet" %in% commandArgs(TRUE))) cat("tests.csv  ", nrow(results), " lines\n", sep = "")
 }

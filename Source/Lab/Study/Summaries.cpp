@@ -98,27 +98,23 @@ std::set<std::string> factorsOf(const std::string& condition) {
 }
 
 ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uint64_t trials,
-                    const std::vector<double>& shares) {
-    const Moments moments{shares};
-    const Proportion pooled = proportion(hits, trials);
-    ChoiceShare share{alternative,  hits,        trials,         shares.size(),       moments.mean,
-                      pooled.least, pooled.most, median(shares), rankInterval(shares)};
-    if (shares.size() < 2) return share;
-    if (share.isAlike()) { // all alike: Student's t has no width
-        const Proportion alike = proportion(hits > 0 ? shares.size() : 0, shares.size());
-        share.least = alike.least, share.most = alike.most;
-        return share;
-    }
-    const double half = moments.halfInterval() < 1e-12 ? 0.0 : moments.halfInterval(); // 0: equal shares
-    share.least = std::max(0.0, moments.mean - half);
-    share.most = std::min(1.0, moments.mean + half);
+                    const std::vector<double>& shares, bool isKnown) {
+    constexpr std::size_t fewest = 6; // two values of five cover the median in 94 % of samples
+    const double none = std::nan("");
+    ChoiceShare share{alternative, hits, trials, shares.size(), none, none};
+    if (!isKnown) return share;
+    share.share = Moments(shares).mean, share.median = median(shares);
+    if (shares.size() >= fewest) share.interval = rankInterval(shares);
+    if (shares.size() < 2)
+        share.interval = RankInterval{proportion(hits, trials).least, proportion(hits, trials).most};
     return share;
 }
 
 using Alternatives = std::set<std::string, std::less<>>;
 
-/// What each trial offered. Parts may be no alternatives: then, and where nothing tells, all that there are.
-std::vector<Alternatives> offeredIn(const std::vector<ChoiceTrial>& trials) {
+/// What each trial offered. Parts may be no alternatives: then all that there are. Of stimuli that none has
+/// all answers of, nor each as many, nothing is known.
+std::vector<Alternatives> offeredIn(const std::vector<ChoiceTrial>& trials, bool& isKnown) {
     Alternatives all, chosen;
     std::vector<Alternatives> each;
     std::map<std::string, Alternatives> answers; // by stimulus
@@ -136,6 +132,8 @@ std::vector<Alternatives> offeredIn(const std::vector<ChoiceTrial>& trials) {
     const bool arePairs =
         !hasParts && size > 1 && size < all.size() && // as AB, BC, AC
         std::ranges::all_of(answers, [&](const auto& one) { return one.second.size() == size; });
+    isKnown = hasParts || arePairs || all.size() < 3 || // as analysis.R has it
+              std::ranges::any_of(answers, [&](const auto& one) { return one.second.size() == all.size(); });
     for (std::size_t i = 0; i < trials.size(); ++i)
         if (!isTold || each[i].empty()) each[i] = arePairs ? answers[trials[i].stimulus] : all;
     return each;
@@ -144,22 +142,20 @@ std::vector<Alternatives> offeredIn(const std::vector<ChoiceTrial>& trials) {
 using Offered = std::map<const ChoiceTrial*, Alternatives>;
 
 ChoiceSummary summarise(const std::string& condition, const std::vector<const ChoiceTrial*>& trials,
-                        const Offered& offered) {
+                        const Offered& offered, bool isKnown) {
     struct Votes {
         std::uint64_t hits = 0, trials = 0;
     };
     std::map<std::string, std::map<std::string, Votes>> votes; // by alternative and participant
     std::set<std::string> people;
-    std::set<std::size_t> sizes;
     for (const auto* trial : trials) {
-        people.insert(trial->participant), sizes.insert(offered.at(trial).size());
+        people.insert(trial->participant);
         for (const std::string& alternative : offered.at(trial)) {
             Votes& own = votes[alternative][trial->participant];
             own.hits += alternative == trial->choice, ++own.trials;
         }
     }
-    ChoiceSummary summary{
-        condition, people.size(), trials.size(), {}, sizes.size() == 1 ? *sizes.begin() : 0};
+    ChoiceSummary summary{condition, people.size(), trials.size(), {}};
     for (const auto& [alternative, own] : votes) {
         std::vector<double> shares;
         Votes all;
@@ -167,45 +163,37 @@ ChoiceSummary summarise(const std::string& condition, const std::vector<const Ch
             shares.push_back(static_cast<double>(one.hits) / static_cast<double>(one.trials));
             all.hits += one.hits, all.trials += one.trials;
         }
-        summary.shares.push_back(shareOf(alternative, all.hits, all.trials, shares));
+        summary.shares.push_back(shareOf(alternative, all.hits, all.trials, shares, isKnown));
     }
     return summary;
 }
 
 using Chosen = std::vector<const RatingTrial*>;
 
-/// Each participant's mean of their means of conditions: none counts more as it has more trials.
 std::vector<double> participantMeans(const Chosen& trials, std::size_t scale) {
-    std::map<std::string, std::map<std::string, std::vector<double>>> scores;
+    std::map<std::string, std::vector<double>> scores;
     for (const auto* trial : trials)
         if (const double score = trial->scores[scale]; !std::isnan(score))
-            scores[trial->participant][trial->condition].push_back(score);
+            scores[trial->participant].push_back(score);
     std::vector<double> means;
-    for (const auto& [participant, conditions] : scores) {
-        std::vector<double> own;
-        for (const auto& [condition, values] : conditions) own.push_back(Moments(values).mean);
-        means.push_back(Moments(own).mean);
-    }
+    for (const auto& [participant, own] : scores) means.push_back(Moments(own).mean);
     return means;
 }
 
 /// Of several people, one person's trials tell no interval.
-RatingSummary summarise(const std::string& condition, const Chosen& all, bool ofSeveral,
-                        const std::vector<std::set<std::string>>& without) {
-    RatingSummary summary{condition, all.size(), 0, {}, {}, {}, {}, {}};
-    for (std::size_t scale = 0; scale < without.size(); ++scale) {
-        Chosen trials = all;
-        std::erase_if(trials, [&](const auto* one) { return without[scale].contains(one->participant); });
+RatingSummary summarise(const std::string& condition, const Chosen& trials, bool ofSeveral) {
+    RatingSummary summary{condition, trials.size(), 0, {}, {}, {}, {}, {}, {}};
+    for (std::size_t scale = 0; scale < trials.front()->scores.size(); ++scale) {
         std::vector<double> scores;
         for (const auto* trial : trials)
             if (!std::isnan(trial->scores[scale])) scores.push_back(trial->scores[scale]);
         summary.scored.push_back(scores.size());
-        const Moments moments{scores};
         const auto means = participantMeans(trials, scale);
         summary.raters.push_back(means.size());
         summary.participants = std::max(summary.participants, means.size());
         summary.means.push_back(scores.empty() ? std::nan("") : Moments(means).mean);
-        summary.deviations.push_back(moments.deviation);
+        summary.medians.push_back(median(means));
+        summary.deviations.push_back(Moments(ofSeveral ? means : scores).deviation);
         summary.halfIntervals.push_back(Moments(ofSeveral ? means : scores).halfInterval());
     }
     return summary;
@@ -233,68 +221,28 @@ Groups<Trial> byFactor(const std::vector<Trial>& trials, const Groups<Trial>& co
 
 } // namespace
 
-std::string intervalNotes(const std::vector<ChoiceSummary>& summaries) {
-    bool areAlike = false, areEqual = false, isCut = false;
-    for (const ChoiceSummary& one : summaries)
-        for (const ChoiceShare& share : one.shares) {
-            if (share.participants < 2) continue;
-            const bool isStudents = !share.isAlike() && share.hasInterval();
-            areAlike |= share.isAlike(), areEqual |= !share.hasInterval();
-            isCut |= isStudents && (share.least == 0.0 || share.most == 1.0);
-        }
-    return std::string{isCut ? ", cut at 0 and 100 %" : ""} +
-           (areAlike ? ", Wilson's of as many people where all chose one or none did" : "") +
-           (areEqual ? ", none where all have the same share" : "");
-}
-
 std::vector<ChoiceSummary> summariseChoices(const std::vector<ChoiceTrial>& trials) {
     std::vector<const ChoiceTrial*> all;
     Offered offered;
-    const auto each = offeredIn(trials);
+    bool isKnown = true;
+    const auto each = offeredIn(trials, isKnown);
     for (const auto& trial : trials) offered[&trial] = each[all.size()], all.push_back(&trial);
     std::vector<ChoiceSummary> summaries;
     if (all.empty()) return summaries;
-    summaries.push_back(summarise("all", all, offered));
+    summaries.push_back(summarise("all", all, offered, isKnown));
     const auto conditions = byCondition(trials);
     if (conditions.size() < 2) return summaries;
     for (const auto& groups : {byFactor(trials, conditions), conditions})
-        for (const auto& [name, own] : groups) summaries.push_back(summarise(name, own, offered));
+        for (const auto& [name, own] : groups) summaries.push_back(summarise(name, own, offered, isKnown));
     return summaries;
-}
-
-std::set<std::string> peopleLackingCells(const std::vector<RatingTrial>& trials, std::size_t scale) {
-    std::map<std::string, std::set<std::string>> cells, groups; // of people
-    std::map<std::string, std::size_t> most;                    // of a group
-    const auto groupOf = [](const RatingTrial& trial) {
-        const std::size_t at = trial.condition.find("group=");
-        return at == std::string::npos ? std::string{} : trial.condition.substr(at);
-    };
-    for (const RatingTrial& trial : trials)
-        if (!std::isnan(trial.scores[scale])) {
-            auto& own = cells[trial.participant];
-            own.insert(trial.condition), groups[trial.participant].insert(groupOf(trial));
-            auto& group = most[groupOf(trial)];
-            group = std::max(group, own.size());
-        }
-    std::set<std::string> lacking;
-    for (const auto& [who, own] : cells)
-        if (std::ranges::any_of(groups[who], [&](const auto& group) { return own.size() < most[group]; }))
-            lacking.insert(who);
-    return 2 * lacking.size() > cells.size() ? std::set<std::string>{} : lacking;
 }
 
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials) {
     std::vector<RatingSummary> summaries;
-    const auto conditions = byCondition(trials);
     const bool ofSeveral = std::ranges::any_of(
         trials, [&](const RatingTrial& one) { return one.participant != trials.front().participant; });
-    std::vector<std::set<std::string>> nobody(trials.front().scores.size()), lacking;
-    for (std::size_t scale = 0; scale < nobody.size(); ++scale)
-        lacking.push_back(peopleLackingCells(trials, scale));
-    for (const auto& [condition, own] : conditions)
-        summaries.push_back(summarise(condition, own, ofSeveral, nobody));
-    for (const auto& [factor, own] : byFactor(trials, conditions))
-        if (own.size() < trials.size()) summaries.push_back(summarise(factor, own, ofSeveral, lacking));
+    for (const auto& [condition, own] : byCondition(trials))
+        summaries.push_back(summarise(condition, own, ofSeveral));
     return summaries;
 }
 
@@ -340,11 +288,10 @@ using Run = std::vector<const LevelTrial*>; // one participant's trials of a ses
 
 /// NaN: of fewer than two reversals; infinite, below or above 0: of half of the later ones, or of all trials,
 /// at an end of the levels, if it is known.
-double staircaseThreshold(const Run& run, LevelSummary& summary) {
+double staircaseThreshold(const Run& run) {
     std::vector<double> levels;
     for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
     const auto reversals = reversalsOf(levels);
-    summary.reversals += reversals.size();
     if (reversals.size() < 2) return std::numeric_limits<double>::quiet_NaN();
     const std::span later{reversals.begin() + static_cast<std::ptrdiff_t>(reversals.size() / 2),
                           reversals.end()};
@@ -406,9 +353,6 @@ double poolThresholds(const std::map<std::string, Run>& participants, std::vecto
     return deviation;
 }
 
-constexpr const char *below = "it is below what could be measured",
-                     *above = "it is above what could be measured";
-
 /// Why these are no threshold, staircase by staircase; empty: they are one.
 std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
                     const std::vector<double>& each) {
@@ -424,13 +368,11 @@ std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
                       : slash == std::string::npos ? "the staircase of " + key.first
                                                    : "staircase " + key.first.substr(slash + 1) + " of " +
                                                          key.first.substr(0, slash)) +
-                     (std::isnan(own) ? " has fewer than two reversals"
-                                      : " had half or more of its trials, or of the reversals that count, at "
-                                        "an end of its levels: " +
-                                            std::string{own < 0.0 ? below : above});
+                     (std::isnan(own)
+                          ? " has fewer than two reversals"
+                          : " had half or more of its trials, or of the reversals that count, at the " +
+                                std::string{own < 0.0 ? "lower" : "upper"} + " end of its levels");
         }
-        if (bad < each.size() && bad > 0)
-            words += "; a threshold is the mean of " + std::to_string(each.size()) + " staircases";
         return words;
     }
     double least = -std::numeric_limits<double>::max(), most = std::numeric_limits<double>::max();
@@ -441,35 +383,30 @@ std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
         most = std::min(most, levels.back() - 0.5 * step);
     }
     if (threshold >= least && threshold <= most) return {};
-    return std::string{"its threshold is at an end of the levels of QUEST+: "} +
-           (threshold < least ? below : above);
+    return std::string{"threshold at the "} + (threshold < least ? "lower" : "upper") +
+           " end of the levels of QUEST+";
 }
 
 void summariseThresholds(LevelSummary& summary, const std::map<std::string, Run>& participants) {
     std::vector<std::vector<double>> own;
-    std::vector<std::size_t> reversals(participants.size());
     double shared = 0.0;
     if (summary.kind == LevelTrial::Kind::quest && participants.size() > 1)
         shared = poolThresholds(participants, own);
     else
         for (const auto& [participant, trials] : participants) {
-            const std::size_t before = summary.reversals;
             auto& thresholds = own.emplace_back();
             for (const auto& [session, run] : runsOf(trials))
-                thresholds.push_back(summary.kind == LevelTrial::Kind::quest
-                                         ? questThreshold(run, summary)
-                                         : staircaseThreshold(run, summary));
+                thresholds.push_back(summary.kind == LevelTrial::Kind::quest ? questThreshold(run, summary)
+                                                                             : staircaseThreshold(run));
             summary.halfInterval /= static_cast<double>(thresholds.size());
-            reversals[own.size() - 1] = summary.reversals - before;
         }
     std::vector<double> thresholds;
     std::size_t at = 0;
     for (const auto& [participant, trials] : participants) {
         const double threshold = meanOf(own[at++]);
         if (const auto why = faultOf(summary.kind, trials, threshold, own[at - 1]); !why.empty()) {
-            summary.leftOut.push_back("participant " + participant + " left out: " + why);
+            summary.leftOut.emplace_back(participant, why);
             summary.trials -= trials.size();
-            summary.reversals -= reversals[at - 1];
             continue;
         }
         thresholds.push_back(threshold);

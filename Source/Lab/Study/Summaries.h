@@ -112,15 +112,9 @@ struct ChoiceShare {
     std::string alternative;
     std::uint64_t hits = 0, trials = 0; ///< trials: that offered it
     std::size_t participants = 0;       ///< to whom it was offered
-    double share = 0.0;                 ///< mean of the participants' shares
-    double least = 0.0, most = 1.0; ///< 95 %: t interval over participants, Wilson's where all are alike; for
-                                    ///< one or unknown participants Wilson's over trials
-    double median = 0.0;            ///< of the participants' shares
-    RankInterval ofMedian{};        ///< its rankInterval()
-
-    /// False where several have the same share, neither none nor all: it tells no spread. Any thread.
-    bool hasInterval() const noexcept { return least < most; }
-    bool isAlike() const noexcept { return hits == 0 || hits == trials; }
+    double share = 0.0, median = 0.0;   ///< of the participants' shares; NaN: what was offered is not known
+    std::optional<RankInterval> interval{}; ///< 95 %: of the median by ranks, from 6 participants on; of one
+                                            ///< Wilson's over trials
 };
 
 struct ChoiceSummary {
@@ -128,23 +122,12 @@ struct ChoiceSummary {
     std::size_t participants = 0;
     std::uint64_t trials = 0;
     std::vector<ChoiceShare> shares; ///< by name of the alternative; of those that were offered
-    std::size_t alternatives = 0;    ///< that each trial offered; 0: not the same number
 
     const ChoiceShare* of(std::string_view alternative) const noexcept {
         const auto found = std::ranges::find(shares, alternative, &ChoiceShare::alternative);
         return found == shares.end() ? nullptr : &*found;
     }
 };
-
-/// ", cut at 0 and 100 %", ", Wilson's ...", ", none ...", where Student's t is not the interval. Any thread.
-std::string intervalNotes(const std::vector<ChoiceSummary>& summaries);
-
-/// How many alternatives each trial of all of them offered; 0: not the same number. Any thread.
-inline std::size_t alternativesOffered(const std::vector<ChoiceSummary>& summaries) noexcept {
-    const std::size_t first = summaries.front().alternatives;
-    return std::ranges::all_of(summaries, [=](const auto& one) { return one.alternatives == first; }) ? first
-                                                                                                      : 0;
-}
 
 /// First all trials together. With several conditions, then each factor of names like "pair=wood size=small"
 /// and each condition, sorted by name. Any thread (allocates).
@@ -159,19 +142,14 @@ struct RatingTrial {
 struct RatingSummary {
     std::string condition;
     std::size_t trials = 0, participants = 0;
-    std::vector<std::size_t> scored, raters; ///< per scale: trials with a score, and people
-    std::vector<double> means, deviations;   ///< over participants; over trials, 0 for one; NaN: not asked
-    std::vector<double> halfIntervals;       ///< 95 %: t interval over participants' means, or over trials if
-                                             ///< participants are unknown; 0 for one value
+    std::vector<std::size_t> scored, raters;        ///< per scale: trials with a score, and people
+    std::vector<double> means, medians, deviations; ///< over participants; over trials, 0 for one; NaN: not
+                                                    ///< asked
+    std::vector<double> halfIntervals; ///< 95 %: t interval over participants' means, or over trials if
+                                       ///< participants are unknown; 0 for one value
 };
 
-/// Who lacks a score of a condition that others of their group have; nobody where most do. Any thread
-/// (allocates).
-std::set<std::string> peopleLackingCells(const std::vector<RatingTrial>& trials, std::size_t scale);
-
-/// Each condition by name, then each factor of names like "pair=wood size=small", or each part of methods'
-/// names like AV-FF-DRV, without peopleLackingCells(). Precondition: every trial has the same number of
-/// scores. Any thread (allocates).
+/// Each condition by name. Precondition: every trial has the same number of scores. Any thread (allocates).
 std::vector<RatingSummary> summariseRatings(const std::vector<RatingTrial>& trials);
 
 // Staircases, adjustments, magnitude estimations and QUEST+: thresholds, levels, magnitudes per condition.
@@ -187,21 +165,11 @@ struct LevelTrial {
     std::optional<std::pair<double, double>> range{}; ///< staircase: its least and most level, if known
 };
 
-/// What the thresholds of reports and plans are.
-inline constexpr const char
-    *staircaseThresholds =
-        "thresholds of staircases: means of the later half of the reversals of the level that a trial "
-        "followed, so without one that ended the staircase or whose level a bound held (of an odd number "
-        "also the middle one); of several staircases their mean, and none where one of them has none",
-    *questThresholds = "thresholds by QUEST+: of each participant with the widths that all answers in the "
-                       "condition tell together; intervals are Student's t and the error of these widths";
-
 struct LevelSummary {
     LevelTrial::Kind kind = LevelTrial::Kind::staircase;
     std::string condition, stimulus; ///< stimulus is empty for staircases and QUEST+, which pool all stimuli
     std::size_t trials = 0, participants = 0;
-    std::size_t reversals = 0;          ///< staircase: sum over participants
-    std::vector<std::string> leftOut{}; ///< one line each on participants without a threshold, and why
+    std::vector<std::pair<std::string, std::string>> leftOut{}; ///< participants without a threshold, and why
     double estimate = 0.0;  ///< staircase, QUEST+: mean threshold in dB; adjustment: mean dB; magnitude:
                             ///< geometric mean; NaN: a threshold of nobody
     double deviation = 0.0; ///< sample standard deviation over participants of thresholds, dB, or log10; of

@@ -176,9 +176,8 @@ Result<StudyFiles> runAnalysisScript(const StudyFiles& files) {
     if (!said) return Failure{said.error};
     if (!said.value.empty()) return Failure{said.value};
     StudyFiles made;
-    for (const char* name : {testsTable, testsWords, pairsTable, mapTable}) {
-        if (name != testsTable && name != testsWords && !std::filesystem::exists(folder.path / name))
-            continue;
+    for (const char* name : {testsTable, pairsTable, mapTable}) {
+        if (name != testsTable && !std::filesystem::exists(folder.path / name)) continue;
         auto text = readFile((folder.path / name).string(), limits::maxTableBytes);
         if (!text) return Failure{text.error};
         made[name] = std::move(text.value);

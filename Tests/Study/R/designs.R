@@ -67,7 +67,7 @@ within("sides", "point of subjective equality", transform(fits, y = as.numeric(f
 d <- trials("numbers"); d$x <- log10(as.numeric(d$stimulus)); d$y <- log10(as.numeric(d$value))
 slopes <- do.call(rbind, lapply(split(d, list(d$participant, d$condition)), function(o) data.frame(participant = o$participant[1], condition = o$condition[1], y = coef(lm(y ~ x, o))[[2]])))
 within("numbers", "exponent", slopes, "condition")
-within("numbers", "logarithms of magnitudes", d, c("condition", "stimulus"))
+within("numbers", "log10 of magnitudes", d, c("condition", "stimulus"))
 
 reversals <- function(levels) {
   step <- diff(levels); moved <- which(step != 0)
