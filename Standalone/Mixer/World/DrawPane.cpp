@@ -65,8 +65,13 @@ void DrawPane::setMaterial(int material) {
 
 void DrawPane::giveMaterial(int material) {
     changeChosen("Material", [material](const Scene& scene, BodyDescription& body) {
-        if (scene.materials[static_cast<std::size_t>(material)].frequencyHz <= 0.0)
-            setSource(scene, body, false); // of nothing that does not vibrate
+        const auto vibrates = [&scene](int m) {
+            return scene.materials[static_cast<std::size_t>(m)].frequencyHz > 0.0;
+        };
+        if (!vibrates(material)) // of which nothing is felt
+            setSource(scene, body, false);
+        else if (!vibrates(body.fixtures[0].material) && startsAsSource(body)) // as if it were drawn now
+            setSource(scene, body, true);
         for (auto& fixture : body.fixtures) fixture.material = material;
     });
 }
@@ -545,9 +550,9 @@ void DrawPane::eraseAll(const std::vector<std::string>& names, bool continuesEdi
     const bool isNeeded =
         std::ranges::any_of(names, [&](const std::string& name) { return trial.find(name) != nullptr; });
     if (!isNeeded) return edit("Erase", std::move(actions), continuesEdit);
-    const auto scene = std::make_shared<const Scene>(without(drawing().drawn(), names));
-    model_.change(
-        "Erase", [&scene](Mix& mix) { mix.scene = scene; }, continuesEdit);
+    Mix mix = model_.mix();
+    mix.scene = std::make_shared<const Scene>(without(drawing().drawn(), names));
+    model_.edit("Erase", mix, continuesEdit, true);
 }
 
 bool DrawPane::handleToolKey(const juce::KeyPress& key) {
