@@ -214,7 +214,8 @@ TEST(Drawing, AMaterialThatDoesNotVibrateTakesTheSourceAndTheNextGivesItBack) {
     Board board;
     board.model.change("Silent", [](Mix& mix) {
         Scene scene = *mix.scene;
-        scene.materials.push_back({.name = "felt"});
+        scene.materials.push_back(Material{scene.materials.front()});
+        scene.materials.back().name = "wool", scene.materials.back().frequencyHz = 0.0;
         mix.scene = std::make_shared<const Scene>(scene);
     });
     board.settle();

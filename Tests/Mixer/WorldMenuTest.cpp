@@ -226,9 +226,8 @@ TEST(Inspector, NeverCoversWhatIsSelectedAndNamesItsMaterial) {
         f.pane.choose({name});
         f.view.refresh();
         ASSERT_TRUE(inspector->isVisible());
-        EXPECT_TRUE(inspector->getBounds()
-                        .getIntersection(f.pane.chosenArea().toNearestInt() + f.pane.getPosition())
-                        .isEmpty())
+        const auto body = juce::Rectangle<float>{70.0f, 70.0f}.withCentre(f.world.placeOfBody(name));
+        EXPECT_FALSE((inspector->getBounds() - f.world.getPosition()).toFloat().intersects(body))
             << x << ", " << y;
         EXPECT_TRUE(f.panel.getLocalBounds().contains(inspector->getBounds())) << x << ", " << y;
     }

@@ -271,6 +271,7 @@ TEST_F(ByAParticipant, AnAnswerWhileTheLastPartPlaysCountsOnceThatIsOver) {
 }
 
 TEST_F(ByAParticipant, BeginWaitsForTheCheck) {
+    ASSERT_EQ(p->tab().chooseProtocol("model-or-sound"), "");
     EXPECT_FALSE(p->tab().check()) << "it goes on";
     p->click("Begin the study");
     EXPECT_EQ(p->screen(), nullptr);

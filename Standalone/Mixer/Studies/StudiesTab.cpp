@@ -101,7 +101,8 @@ StudiesTab::StudiesTab(MixerModel& model)
             analyse_.get(), findings_.get(), &master_});
     setFolder(juce::SharedResourcePointer<UserFolder> {} -> place());
     setParticipant("P01", 1);
-    chooseProtocol("level-steps"); // two short pulses a trial, on what a first start has
+    // two short pulses a trial, where there are actuators for it
+    chooseProtocol(model.mix().count() < 4 ? "model-or-sound" : "level-steps");
 }
 
 StudiesTab::~StudiesTab() {

@@ -254,7 +254,8 @@ Mix MixerWindow::firstMix() {
     const auto& settings = files_.settings();
     Mix mix = MixerModel::firstMix();
     if (const int outputs = settings.getIntValue("outputs");
-        outputs > 0 && settings.getValue("device") == utf8(device_.name))
+        outputs > 0 && settings.getValue("device") == utf8(device_.name) &&
+        settings.getBoolValue("headphones") == device_.isHeadphones)
         fitLayoutTo(outputs, mix, device_.name);
     const DeskLimits left = limits();
     mix.levelDb = std::min(mix.levelDb, left.loudestOutputDb());
@@ -379,7 +380,8 @@ void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> act)
 }
 
 constexpr const char* keys =
-    "Esc\tsilence\nEsc, a menu\tcloses it\nEsc, a card or drag\tends it, silences what sounds or did 1.5 s before\n"
+    "Esc\tsilence\nEsc, a menu\tcloses it\nEsc, a card or drag\tends it, silences what sounds or did 1.5 s "
+    "before\n"
     "Space\tpause\n.\tone step of a paused world\nF2\tplay or engineer\nF3\tstrips, and what is below\n"
     "F4\tthe drawer\nF10, Ctrl+Q\tmenu, quit\nF11\tfull screen\nArrow keys\ttilt\nShift + drag\tholds a "
     "body\n"
@@ -993,12 +995,12 @@ void MixerWindow::share(bool isElsewhere) {
         const auto then = [this](auto act) { return [this, act] { view_->setCard(nullptr), act(); }; };
         return ask(
             "Share the world",
-            "A movie plays on any phone. A scene is felt in another mixer, or on a web page of PhysVib, "
-            "which is not built here: after Standalone/Web/build-web.sh, Share serves it to phones, with "
-            "a code.",
+            "A movie plays on any phone.\nA scene is felt in another mixer, or on a web page of "
+            "PhysVib.\nThat page is not built here: after Standalone/Web/build-web.sh, Share serves it "
+            "to phones, with a code.",
             {{"Save movie" + dots(), then([this] { saveMovie(); })},
              {"Save as scene" + dots(), then([this] { saveScene(false); })},
-             {"A page elsewhere" + dots(), then([this] { share(true); })}});
+             {"Other page" + dots(), then([this] { share(true); })}});
     }
     const auto at = [behind = utf8(link.value)](const juce::String& address) {
         return address.isEmpty() ? address : address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;

@@ -381,7 +381,7 @@ void BodyPanel::paint(juce::Graphics& g) {
 
 // What goes together stays in one line; in a narrow panel a slider has a line of its own.
 int BodyPanel::flow(int width, bool places) {
-    constexpr int nameWide = 104, materialWide = 100, movesWide = 80, sourceWide = 118, captionWide = 58,
+    constexpr int nameWide = 94, materialWide = 100, movesWide = 80, sourceWide = 118, captionWide = 58,
                   swatchWide = 28, between = 4;
     const int right = width - edge;
     int x = edge, y = edge;
@@ -403,7 +403,7 @@ int BodyPanel::flow(int width, bool places) {
             put({{swatch.get(), swatchWide}}), x -= between;
         else
             put({{swatch.get(), swatchWide}, {&new_, swatchWide}});
-    const int barWide = width > 2 * wide ? 100 : right - edge - captionWide;
+    const int barWide = width > 2 * wide ? 112 : right - edge - captionWide;
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},
                                         {&speedName_, &speed_},

@@ -445,22 +445,6 @@ std::optional<DrawPane::Handles> DrawPane::handles() const {
                    on(0.0, 0.0)};
 }
 
-juce::Rectangle<float> DrawPane::chosenArea() const {
-    constexpr float withHandles = 34.0f;
-    juce::Rectangle<float> area;
-    for (const std::string& name : chosen_)
-        if (const auto* body = drawing().find(name); body != nullptr && placeNow(name)) {
-            const Reach reach = reachOf(*body);
-            const auto radius =
-                static_cast<float>(std::max({reach.most.x, reach.most.y, -reach.least.x, -reach.least.y})) *
-                view_.pixelsPerMetre();
-            const auto around = juce::Rectangle<float>{2.0f * radius, 2.0f * radius}.withCentre(
-                view_.placeOfMetres(placeNow(name)->metres));
-            area = area.isEmpty() ? around : area.getUnion(around);
-        }
-    return area.isEmpty() ? area : area.expanded(withHandles);
-}
-
 void DrawPane::grip(const juce::MouseEvent& e) {
     if (const auto marks = handles()) {
         if (marks->turn.getDistanceFrom(e.position) < handlePixels) return void(grip_ = Grip::turn);

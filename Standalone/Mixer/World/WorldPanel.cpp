@@ -151,7 +151,7 @@ void WorldPanel::showTools() {
 void WorldPanel::placeInspector() {
     if (!body_.isVisible()) return;
     const auto room = getLocalBounds()
-                          .withTrimmedTop(palette_.getBottom() + 4)
+                          .withTrimmedTop(palette_.getBottom() + 2)
                           .withTrimmedBottom(foot)
                           .withLeft(palette_.getX())
                           .withTrimmedRight(8);
@@ -173,10 +173,10 @@ void WorldPanel::placeInspector() {
 }
 
 juce::Rectangle<int> WorldPanel::bannerArea() const {
-    if (!isShow_ && !hasMaster_) return getLocalBounds().reduced(8, 4).removeFromBottom(foot - 9);
-    auto area = getLocalBounds().withTrimmedLeft(isShow_ ? 8 : bar_.getRight());
-    if (isShow_) area.removeFromRight(silenceWidth);
-    return area.reduced(8, 4).withHeight(28);
+    auto row = getLocalBounds().reduced(8, 4);
+    if (isShow_) return row.withTrimmedRight(silenceWidth).withHeight(28);
+    if (hasMaster_) row.setRight(tilt_.getX() - 8);
+    return row.removeFromBottom(foot - 9);
 }
 
 void WorldPanel::setShow(bool isShow) {
@@ -408,11 +408,10 @@ void WorldPanel::resized() {
     view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
     constexpr int silenceHigh = 40;               // the button lies over the corner of a show
     view_.setRoom(isShow_ ? juce::BorderSize<int>{silenceHigh, 0, 0, 0}
-                          : juce::BorderSize<int>{hasMaster_ ? 84 : 20, tools - 12, foot - 14, 0});
+                          : juce::BorderSize<int>{hasMaster_ ? 51 : 20, tools - 12, foot - 14, 0});
     pane_.setBounds(view_.getBounds().withTrimmedBottom(isShow_ ? 0 : foot - 4)); // not over the row of words
     top.removeFromLeft(8);
     script_.setBounds(top.withHeight(script_.getHeight()));
-    if (hasMaster_) top.removeFromTop(28); // of messages, which else lie where the master is not
     palette_.setBounds(top.removeFromTop(26));
     placeInspector();
 }

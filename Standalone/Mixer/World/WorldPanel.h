@@ -60,7 +60,7 @@ public:
     void setPlay(bool isPlay, bool hasMaster);
     /// What a right click there offers. `place` in pixels of the view.
     juce::PopupMenu menuAt(juce::Point<float> place);
-    /// Where a message lies over this panel: above the materials if there is room, else on the row of words.
+    /// Where a message lies over this panel: on the row of words, but for the master.
     juce::Rectangle<int> bannerArea() const;
 
     static constexpr int silenceWidth = 174; ///< of the button that silences, in the corner of a show

@@ -609,7 +609,7 @@ TEST(Window, ShareLeadsWhereAPersonCanGo) {
         EXPECT_TRUE(files.words().contains("build-web.sh")) << files.words();
         for (const char* words : {"Save movie", "Save as scene"})
             EXPECT_TRUE(dynamic_cast<juce::Button&>(*find(files, words + dots())).isEnabled()) << words;
-        files.answer("A page elsewhere" + dots());
+        files.answer("Other page" + dots());
         ASSERT_TRUE(runUntil([&] {
             auto* next = window.view().question();
             return next != nullptr && find(*next, "Address of the page") != nullptr;
