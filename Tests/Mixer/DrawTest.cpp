@@ -262,7 +262,7 @@ TEST(Drawing, AMaterialIsRenamedByADoubleClickAndEditedByItsButton) {
     board.key('b');
     board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
     const auto first = utf8(board.drawn().materials[0].name);
-    for (const juce::String title : {"Material " + first, "Made of mine"}) {
+    for (const juce::String title : {"Material " + first, juce::String{"Made of mine"}}) {
         auto* const swatch = find(board.view, title);
         ASSERT_TRUE(swatch != nullptr && swatch->isVisible()) << title;
         swatch->mouseDoubleClick(mouseAt(*swatch, {4.0f, 4.0f}));
