@@ -225,10 +225,11 @@ TEST(Drawing, AMaterialThatDoesNotVibrateTakesTheSourceAndTheNextGivesItBack) {
         const auto name = board.drawn().bodies.back().name;
         const auto source = [&] { return isSource(*board.model.world().drawing().find(name)); };
         const bool before = source();
+        const int own = board.drawn().bodies.back().fixtures[0].material;
         board.pane.choose({name});
         board.pane.giveMaterial(static_cast<int>(board.drawn().materials.size()) - 1);
         EXPECT_FALSE(source()) << name;
-        board.pane.giveMaterial(0);
+        board.pane.giveMaterial(own);
         EXPECT_EQ(source(), before) << name;
     }
 }
