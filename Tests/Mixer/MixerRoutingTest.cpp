@@ -244,6 +244,7 @@ TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
     hit.x = 0.5 * model.world().scene().fieldWidthMetres,
     hit.y = 0.5 * model.world().scene().fieldHeightMetres;
     EXPECT_NE(strongestOf(model, hit).enchanter, 2) << "nothing of it is felt";
+    EXPECT_EQ(whyOnlySeen(model, hit), "C has no output");
     hit.x *= 0.5; // between A and C
     EXPECT_GT(strongestOf(model, hit).levelG, 0.0);
     model.change("Mute", [](Mix& mix) { mix.strips[0].isMuted = true; });
@@ -263,6 +264,11 @@ TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
     routed.give(2, 4); // whoever asks for it gets it
     EXPECT_EQ(shownOutput(view, model, "C"), "out 5");
     routed.expectAsShown("asked for");
+    DeviceChoice actuators = model.device().choice();
+    actuators.isHeadphones = false;
+    ASSERT_EQ(model.open(actuators), "");
+    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 4, 2})) << "D came on headphones: a free one";
+    routed.expectAsShown("after them");
 }
 
 TEST(Headphones, ThoseOfAFourActuatorMixerAreToldAndTheLevelIsLow) {

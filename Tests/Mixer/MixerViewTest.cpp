@@ -324,6 +324,26 @@ TEST(MixerView, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {
     EXPECT_TRUE(model.trouble().isEmpty());
 }
 
+TEST(MixerView, WhatWasLostIsToldUntilItHasBeenFineForSomeSeconds) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    view.setMode(Mode::play);
+    MixerMoment moment;
+    const auto isTold = [&] {
+        for (int k = 0; k < 12; ++k) view.topBar().refresh(moment);
+        return find(view, "Load")->isVisible();
+    };
+    EXPECT_FALSE(isTold());
+    moment.session.render.untold = 1499;
+    EXPECT_TRUE(isTold());
+    runFor(1.0);
+    EXPECT_TRUE(isTold());
+    runFor(4.5);
+    EXPECT_FALSE(isTold());
+    ++moment.session.render.untold;
+    EXPECT_TRUE(isTold());
+}
+
 TEST(MixerView, AMessageCoversNoBadge) {
     MixerModel model{onlyNoDevice(), noDevice};
     MixerView view{model};

@@ -226,9 +226,8 @@ TEST(Inspector, NeverCoversWhatIsSelectedAndNamesItsMaterial) {
         f.pane.choose({name});
         f.view.refresh();
         ASSERT_TRUE(inspector->isVisible());
-        EXPECT_TRUE(inspector->getBounds()
-                        .getIntersection(f.pane.chosenArea().toNearestInt() + f.pane.getPosition())
-                        .isEmpty())
+        const auto body = juce::Rectangle<float>{70.0f, 70.0f}.withCentre(f.world.placeOfBody(name));
+        EXPECT_FALSE((inspector->getBounds() - f.world.getPosition()).toFloat().intersects(body))
             << x << ", " << y;
         EXPECT_TRUE(f.panel.getLocalBounds().contains(inspector->getBounds())) << x << ", " << y;
     }
@@ -236,11 +235,8 @@ TEST(Inspector, NeverCoversWhatIsSelectedAndNamesItsMaterial) {
     f.model.dispatchPendingMessages();
     f.pane.choose({f.drawn().bodies.back().name});
     EXPECT_EQ(f.pane.material(), 3);
-    bool isNamed = false;
-    for (auto* child : inspector->getChildren())
-        if (auto* label = dynamic_cast<juce::Label*>(child))
-            isNamed = isNamed || label->getText().contains(utf8(f.drawn().materials[3].name));
-    EXPECT_TRUE(isNamed);
+    const auto& named = dynamic_cast<juce::Button&>(*find(*inspector, "Material of what is chosen"));
+    EXPECT_EQ(named.getButtonText(), utf8(f.drawn().materials[3].name));
 }
 
 TEST(Inspector, ASwatchGivesWhatIsChosenItsMaterialAndOneUndoTakesItBack) {
@@ -292,20 +288,22 @@ TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
             << j;
     for (int k = 0; k < 5; ++k) f.view.refresh();
     EXPECT_EQ(inspector->getBounds(), place);
-    f.model.setSlowness(1);
     f.view.setMode(Mode::play); // no room beside the field
-    f.add(DrawTool::ball, 0.4, 0.6);
-    f.pane.use(DrawTool::choose);
-    f.pane.choose({"ball 1"});
+    f.view.setSize(1024, 700);
     f.view.refresh();
-    const auto there = inspector->getBounds();
-    ASSERT_TRUE(runUntil([&] { // a hand carries it there
-        f.world.onHold("ball 1", {}, f.world.metresAt((there.getCentre() - f.world.getPosition()).toFloat()));
-        return f.view.refresh(), there.toFloat().contains(f.pane.chosenArea().getCentre());
-    }));
-    EXPECT_EQ(inspector->getBounds(), there) << "what moves away is not hit";
-    f.pane.onChange();
-    EXPECT_NE(inspector->getBounds(), there) << "after an edit it makes room";
+    auto& world = f.panel.view();
+    const auto field = juce::Rectangle<float>{world.placeOfShare({0.0, 1.0}), world.placeOfShare({1.0, 0.0})};
+    EXPECT_TRUE((inspector->getBounds() - world.getPosition()).toFloat().getIntersection(field).isEmpty())
+        << "nothing of the field is hidden";
+    EXPECT_GE(field.getWidth() * field.getHeight(), 0.45f * 1024.0f * 700.0f);
+    f.model.report("a message");
+    f.model.dispatchPendingMessages();
+    for (const Mode mode : {Mode::play, Mode::engineer}) {
+        f.view.setMode(mode);
+        const auto banner = find(f.view, "Trouble")->getBounds() - f.panel.getPosition();
+        for (const char* title : {"Materials to draw with", "Chosen bodies"})
+            EXPECT_FALSE(banner.intersects(find(f.panel, title)->getBounds())) << title;
+    }
 }
 
 TEST(Inspector, HasAPlaceOfItsOwnWhereverTheBodyIs) {

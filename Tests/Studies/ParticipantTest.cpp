@@ -252,6 +252,33 @@ TEST_F(ByAParticipant, FeedbackStandsOnThePageAfterTheAnswerAndNotInAnotherSessi
     EXPECT_FALSE(p->screen()->getDescription().contains("That was")) << "it was of the session before";
 }
 
+TEST_F(ByAParticipant, AnAnswerWhileTheLastPartPlaysCountsOnceThatIsOver) {
+    begin(
+        R"({"name": "main", "task": "choose", "alternatives": [{"name": "a"}, {"name": "b"}],
+            "staircase": {"alternative": "b", "most_db": 10, "most_trials": 1}})",
+        R"("layout": "phone2", "level_g": 0.2, "stimuli": "grid", "columns": 1, "rows": 1, "seconds": 1.5)");
+    passPage();
+    p->feel();
+    EXPECT_FALSE(p->isAnswerOpen("Answer: number 1"));
+    p->space();
+    ASSERT_TRUE(test::runUntil([&] { return p->pump(), p->screen()->plays() == 2; }));
+    ASSERT_TRUE(p->screen()->isFeeling() && p->isAnswerOpen("Answer: number 1"));
+    p->click("Answer: number 1");
+    ASSERT_TRUE(p->screen()->isFeeling()) << "it is not over";
+    EXPECT_FALSE(p->isAnswerOpen("Next"));
+    p->click("Next");
+    EXPECT_EQ(p->experiment().trialsTaken(), 1);
+}
+
+TEST_F(ByAParticipant, BeginWaitsForTheCheck) {
+    ASSERT_EQ(p->tab().chooseProtocol("model-or-sound"), "");
+    EXPECT_FALSE(p->tab().check()) << "it goes on";
+    p->click("Begin the study");
+    EXPECT_EQ(p->screen(), nullptr);
+    ASSERT_TRUE(test::runUntil([&] { return p->pump(), p->screen() != nullptr; }));
+    EXPECT_TRUE(p->tab().check());
+}
+
 TEST_F(ByAParticipant, FindingsOfTheCheckStandBesideTheProtocol) {
     ASSERT_EQ(p->tab().chooseProtocol("model-or-sound"), "");
     EXPECT_FALSE(p->tab().check()) << "it is made beside the window";

@@ -240,20 +240,6 @@ void MaterialsTab::askName(bool isCopy) {
         askMaterial(*this, model_, chosenIndex(), isCopy, [this](int material) { choose(material); });
 }
 
-void MaterialsTab::showMenu() {
-    const juce::Component::SafePointer<MaterialsTab> safe{this};
-    const auto item = [safe](bool isCopy) {
-        return [safe, isCopy] {
-            if (safe != nullptr) safe->askName(isCopy);
-        };
-    };
-    juce::PopupMenu menu;
-    menu.addItem("Copy" + dots(), item(true));
-    menu.addItem("Name and colour" + dots(), item(false));
-    menu.setLookAndFeel(&getLookAndFeel());
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withMousePosition());
-}
-
 void MaterialsTab::measure(const juce::File& file) {
     const auto* material = chosen();
     if (material == nullptr || !(material->frequencyHz > 0.0))
@@ -410,10 +396,17 @@ juce::String MaterialsTab::Rows::getNameForRow(int row) {
 }
 
 void MaterialsTab::Rows::listBoxItemClicked(int, const juce::MouseEvent& e) {
-    if (e.mods.isPopupMenu()) return tab_.showMenu();
+    if (e.mods.isPopupMenu())
+        return showMaterialMenu(tab_, tab_.model_, tab_.chosenIndex(),
+                                [this](int material) { tab_.choose(material); }, {});
     const MaterialColumns at{e.eventComponent->getLocalBounds()};
     if (at.dot.contains(e.getPosition())) return tab_.askName(false);
     if (tab_.feel_.isEnabled() && at.sign.contains(e.getPosition())) tab_.feelAt(tab_.spot_);
+}
+
+void MaterialsTab::Rows::listBoxItemDoubleClicked(int, const juce::MouseEvent& e) {
+    const MaterialColumns at{e.eventComponent->getLocalBounds()};
+    at.name.contains(e.getPosition()) ? tab_.askName(false) : tab_.typeFrequency();
 }
 
 void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height,

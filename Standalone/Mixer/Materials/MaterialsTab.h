@@ -20,6 +20,7 @@ public:
     void measure(const juce::File& file);
     bool isMeasuring() const noexcept { return measuring_ != nullptr; }
     void finishMeasuring();    ///< waits for the result
+    void browse();             ///< asks for the recording
     void choose(int material); ///< index in the scene
     void feelAt(FieldShare spot);
     /// Measurement of a material; null if there is none.
@@ -50,11 +51,13 @@ private:
         int getNumRows() override { return static_cast<int>(tab_.order_.size()); }
         void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
         void listBoxItemClicked(int row, const juce::MouseEvent& e) override;
-        void listBoxItemDoubleClicked(int, const juce::MouseEvent&) override { tab_.typeFrequency(); }
+        void listBoxItemDoubleClicked(int row, const juce::MouseEvent& e) override;
         void returnKeyPressed(int) override { tab_.typeFrequency(); }
         void selectedRowsChanged(int) override { tab_.showChosen(); }
         juce::String getNameForRow(int row) override;
-        juce::String getTooltipForRow(int) override { return "Its dot: name and colour; right click: copy"; }
+        juce::String getTooltipForRow(int) override {
+            return "A double click on its name, or its dot: name and colour";
+        }
 
     private:
         MaterialsTab& tab_;
@@ -81,9 +84,7 @@ private:
     void typeFrequency();
     void showChosen();
     void showSpot();
-    void browse();
     void askName(bool isCopy);
-    void showMenu();
     void measureNext();
     void handleAsyncUpdate() override;
     void finish(const Job& job, const Result<RecordedHit>& hit);

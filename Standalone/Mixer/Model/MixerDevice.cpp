@@ -188,8 +188,9 @@ namespace {
 int earOf(std::size_t strip) { return strip < DeviceChoice::ears ? static_cast<int>(strip) : -1; }
 } // namespace
 
-std::string useHeadphones(MixerModel& model, DeviceChoice choice) {
-    if (!model.device().choice().isHeadphones) choice.beforeEars = model.device().outputMap();
+std::string useHeadphones(MixerModel& model, DeviceChoice choice, std::optional<std::vector<int>> before) {
+    if (!model.device().choice().isHeadphones)
+        choice.beforeEars = before ? std::move(*before) : model.device().outputMap();
     choice.isHeadphones = true;
     choice.monitor.clear();
     if (choice.marker < DeviceChoice::ears) choice.marker = -1;
@@ -208,16 +209,22 @@ std::string useHeadphones(MixerModel& model, DeviceChoice choice) {
     return error;
 }
 
-void leaveHeadphones(MixerModel& model, const std::vector<int>& outputs) {
+void takeOffHeadphones(const DeviceChoice& choice, int outputs, std::span<Strip> strips, std::size_t first) {
+    const auto& before = choice.beforeEars;
+    std::vector<std::size_t> as;
+    for (std::size_t j = first; j < strips.size(); ++j)
+        if (strips[j].output == earOf(j)) as.push_back(j), strips[j].output = -1;
+    for (const std::size_t j : as)
+        if (j >= before.size()) // it has come meanwhile
+            strips[j].output = freeOutput(strips, choice.inUse(), outputs);
+        else if (before[j] < outputs && std::ranges::find(strips, before[j], &Strip::output) == strips.end())
+            strips[j].output = std::max(-1, before[j]);
+}
+
+void leaveHeadphones(MixerModel& model, const DeviceChoice& ears) {
     const int there = model.device().outputs() > 0 ? model.device().outputs() : mostStripOutputs;
     Mix mix = model.mix();
-    std::vector<std::size_t> as;
-    for (std::size_t j = 0; j < std::min(mix.strips.size(), outputs.size()); ++j)
-        if (mix.strips[j].output == earOf(j)) as.push_back(j), mix.strips[j].output = -1;
-    for (const std::size_t j : as)
-        if (outputs[j] < there &&
-            std::ranges::find(mix.strips, outputs[j], &Strip::output) == mix.strips.end())
-            mix.strips[j].output = std::max(-1, outputs[j]);
+    takeOffHeadphones(ears, there, mix.strips);
     if (!std::ranges::equal(mix.strips, model.mix().strips, {}, &Strip::output, &Strip::output))
         model.edit("Outputs as before headphones", mix);
 }

@@ -129,11 +129,16 @@ std::vector<std::size_t> placeNew(const DeviceChoice& choice, std::span<Strip> s
 
 /// Opens a device as headphones: the first actuator is heard left and the second right, at the level at which
 /// a monitor begins, or lower. Result as MixerModel::open(). Message thread.
-std::string useHeadphones(MixerModel& model, DeviceChoice choice);
+/// `before`: the outputs that the strips get back after them; none: those of now.
+std::string useHeadphones(MixerModel& model, DeviceChoice choice,
+                          std::optional<std::vector<int>> before = {});
 
 /// After headphones: strips that are as useHeadphones() left them get the outputs of before, if the device
-/// has them; the level stays low. Message thread.
-void leaveHeadphones(MixerModel& model, const std::vector<int>& outputs);
+/// has them, and those that came meanwhile a free one; the level stays low. takeOffHeadphones(): strips from
+/// number `first` on; any thread. Message thread.
+void takeOffHeadphones(const DeviceChoice& choice, int outputs, std::span<Strip> strips,
+                       std::size_t first = 0);
+void leaveHeadphones(MixerModel& model, const DeviceChoice& ears);
 
 /// Reports strips for which headphones have no output. Message thread.
 void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips);

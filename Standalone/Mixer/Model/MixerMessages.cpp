@@ -78,6 +78,17 @@ StrongestActuator strongestOf(const MixerModel& model, const CollisionEvent& hit
     return strongest;
 }
 
+juce::String whyOnlySeen(const MixerModel& model, const CollisionEvent& hit) {
+    if (model.isOnlySeen()) return "no device";
+    PhantomPanner::Gains gains{};
+    model.mix().panner().gainsAt(hit, gains);
+    const auto nearest = std::ranges::max_element(gains) - gains.begin();
+    const auto j = static_cast<std::size_t>(nearest);
+    const auto label = utf8(model.mix().layout.enchanters[j].label);
+    if (!model.device().isPlayed(j)) return label + " has no output";
+    return model.mix().isSilent(static_cast<int>(j)) ? label + " is muted" : juce::String{"too weak"};
+}
+
 juce::String placeText(const Scene& scene, const CollisionEvent& hit) {
     const double x = hit.x / scene.fieldWidthMetres, y = hit.y / scene.fieldHeightMetres;
     const juce::String column = x < 0.15   ? "left"

@@ -87,6 +87,8 @@ struct StrongestActuator {
                          ///< limiter
 };
 StrongestActuator strongestOf(const MixerModel& model, const CollisionEvent& hit);
+/// Of a hit that nobody feels: what the actuator that would play most of it lacks.
+juce::String whyOnlySeen(const MixerModel& model, const CollisionEvent& hit);
 
 /// "at the bottom left"
 juce::String placeText(const Scene& scene, const CollisionEvent& hit);

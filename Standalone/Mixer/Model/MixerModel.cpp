@@ -2,6 +2,7 @@
 // The mixer's state, the session that plays it, and its output device.
 #include "Mixer/Model/MixerModel.h"
 #include "Live/Documents/Mix.h"
+#include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneFile.h"
 #include <algorithm>
 #include <cmath>
@@ -180,12 +181,13 @@ MixerModel::~MixerModel() {
     rig_.close();
 }
 
-void MixerModel::edit(const juce::String& name, const Mix& next, bool continuesEdit) {
+void MixerModel::edit(const juce::String& name, const Mix& next, bool continuesEdit, bool returns) {
     auto& undo = history_->undo;
     if (!continuesEdit || undo.getCurrentTransactionName() != name) undo.beginNewTransaction(name);
-    // undo restores the scene as it was drawn
-    if (const Scene& drawn = world_.drawing().drawn(); next.scene != mix_.scene && drawn != *mix_.scene) {
-        const auto before = std::exchange(mix_.scene, std::make_shared<const Scene>(drawn));
+    if (const Scene& drawn = world_.drawing().drawn();
+        next.scene != mix_.scene && (returns || drawn != *mix_.scene)) {
+        auto left = std::make_shared<const Scene>(returns ? sceneNow(drawn, world_.posesNow()) : drawn);
+        const auto before = std::exchange(mix_.scene, std::move(left));
         history_->drawn.emplace_back(before, mix_.scene);
     }
     Mix settled = next;
@@ -279,7 +281,7 @@ std::string MixerModel::open(const DeviceChoice& choice) {
     auto error = device_.open(choice);
     if (!choice.isHeadphones) {
         messages_.withdraw(noEarLabel);
-        if (before.isHeadphones) leaveHeadphones(*this, before.beforeEars);
+        if (before.isHeadphones) leaveHeadphones(*this, before);
     }
     session().world().setSlowness(slowness); // the first device resets it
     if (!error.empty())

@@ -36,8 +36,9 @@ public:
     const Mix& mix() const noexcept { return mix_; }
     /// Applies another mixer state as an undoable edit named `name`. In a series of edits with
     /// `continuesEdit`, such as those of a held fader, only the first starts a new undo step. An actuator
-    /// whose output another one has gets none, which is reported.
-    void edit(const juce::String& name, const Mix& next, bool continuesEdit = false);
+    /// whose output another one has gets none, which is reported. Undo has bodies where they were drawn, or
+    /// with `returns` where they were.
+    void edit(const juce::String& name, const Mix& next, bool continuesEdit = false, bool returns = false);
     template <class Change>
     void change(const juce::String& name, Change change, bool continuesEdit = false) {
         Mix next = mix_;

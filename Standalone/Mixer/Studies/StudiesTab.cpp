@@ -84,7 +84,11 @@ StudiesTab::StudiesTab(MixerModel& model)
     findings_->setTitle("Findings of the check");
     findings_->onClick = [this] { showFindings(); };
     begin_.setTitle("Begin the study");
-    begin_.onClick = [this] { begin(); };
+    begin_.onClick = [this] {
+        if (check_) return void(begin());
+        isBeginWanted_ = !isBeginWanted_;
+        look();
+    };
     for (auto* editor : {&code_, &number_, &folder_}) {
         editor->setFont(text::font(text::medium));
         editor->setEscapeAndReturnKeysConsumed(false); // Esc must reach the silence button from here, too
@@ -97,7 +101,8 @@ StudiesTab::StudiesTab(MixerModel& model)
             analyse_.get(), findings_.get(), &master_});
     setFolder(juce::SharedResourcePointer<UserFolder> {} -> place());
     setParticipant("P01", 1);
-    chooseProtocol(knownProtocols().front().name);
+    // two short pulses a trial, where there are actuators for it
+    chooseProtocol(model.mix().count() < 4 ? "model-or-sound" : "level-steps");
 }
 
 StudiesTab::~StudiesTab() {
@@ -111,6 +116,7 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
     if (!fault.empty()) return say(utf8(fault), Shade::limit), fault;
     stopCheck();
     check_.reset();
+    isBeginWanted_ = false;
     protocol_ = std::move(protocol.value);
     const auto& all = knownProtocols();
     const auto known = std::ranges::find(all, nameOrPath, &Protocol::name);
@@ -273,7 +279,9 @@ void StudiesTab::look() {
     const StudyRun chosen = run();
     const auto path = chosen.trialFile();
     std::error_code none;
-    begin_.setEnabled(!code_.isEmpty() && check_.has_value());
+    begin_.setEnabled(!code_.isEmpty());
+    if (isBeginWanted_)
+        return begin_.setButtonText("Checking" + dots()), say("It begins once it is checked", Shade::text);
     if (code_.isEmpty()) return begin_.setButtonText("Begin"), say("Expected a code", Shade::muted);
     if (!std::filesystem::exists(path, none))
         return begin_.setButtonText("Begin"),
@@ -303,7 +311,9 @@ void StudiesTab::stopCheck() {
 void StudiesTab::updateCheck() {
     if (checking_.valid() && checking_.wait_for(std::chrono::seconds{0}) == std::future_status::ready) {
         check_ = checking_.get();
+        const bool begins = std::exchange(isBeginWanted_, false) && isShowing();
         look();
+        if (begins) begin();
     }
     if (!check_ && !checking_.valid() && protocol_ && isVisible()) {
         isCheckWanted_ = true;
@@ -428,7 +438,10 @@ std::string StudiesTab::begin() {
     Apparatus apparatus = apparatusOf(model_);
     apparatus.language = words.value.name.empty() ? "en" : words.value.name;
     auto unlike = study->apparatusFault(apparatus);
-    if (const auto db = study->otherLevelDb(apparatus)) offerLevel(*db);
+    if (const auto db = study->otherLevelDb(apparatus))
+        offerLevel(*db);
+    else if (!unlike.empty()) // where it is read whole
+        model_.report(utf8(unlike));
     if (unlike.empty()) unlike = study->begin(apparatus);
     if (!unlike.empty()) return model_.device().listening().endStudy(), refuse(unlike);
     screen_ = std::make_unique<StudyScreen>(model_, std::move(study), std::move(words.value),

@@ -104,6 +104,7 @@ private:
     juce::TextEditor code_, number_, folder_;
     std::unique_ptr<juce::TextButton> browse_, analyse_, findings_;
     std::optional<StudyCheck> check_; // of protocol_
+    bool isBeginWanted_ = false;      // once there is that
     MasterStrip master_{model_, true};
     juce::TextButton begin_{"Begin"};
     juce::Rectangle<int> aboutArea_, levelArea_;

@@ -404,8 +404,9 @@ void StudyScreen::pause() {
 
 /// An exploration plays the choice at once; other answers wait for confirmation.
 void StudyScreen::asked() {
-    if (page_ != Page::trial || isFeeling()) return;
+    if (page_ != Page::trial) return;
     if (!isExploring()) return refresh(), answers_.focusConfirm(); // it may be enabled only now
+    if (isFeeling()) return;
     exploring_ = answers_->answer();
     play(0);
 }
@@ -500,8 +501,10 @@ void StudyScreen::updateTrial() {
     playSequence();
     if (exploring_ && !isFeeling() && progress_->plays() > 0) return submit(*exploring_);
     if (Answer late; isTimeOver()) return late.ranOut = true, submit(late);
+    // who knows already answers while the last part plays, and confirms after it
     const bool isOpen =
-        !isFeeling() && !model_.isSilent() && (progress_->canAnswer() || answers_->isOpen() || isExploring());
+        !model_.isSilent() && (isFeeling() ? progress_->canAnswer() && !isExploring()
+                                           : progress_->canAnswer() || answers_->isOpen() || isExploring());
     answers_.setVisible(isAnswerSeen());
     if (isOpen != answers_->isEnabled()) answers_->setEnabled(isOpen);
     if (isOpen && (answers_.standsAlone() ? answers_.hasKeyboardFocus(false) : hasKeyboardFocus(false)))

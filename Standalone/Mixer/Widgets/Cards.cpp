@@ -291,14 +291,20 @@ void FileCard::place(juce::Rectangle<int> area) {
 class QuestionCard::Input final : public juce::Component {
 public:
     explicit Input(const Field& field)
-        : name{field.title} {
+        : name{field.title}
+        , dots{field.dots} {
         text.setTitle(name);
         text.setFont(physvib::text::font(physvib::text::medium));
         text.setText(field.value, false);
         text.setSelectAllWhenFocused(true);
         if (field.allowed.isNotEmpty()) text.setInputRestrictions(32, field.allowed);
         list.setTitle(name);
-        list.addItemList(field.choices, 1);
+        for (int k = 0; k < field.choices.size(); ++k) {
+            juce::PopupMenu::Item item{field.choices[k]};
+            item.itemID = k + 1;
+            if (!dots.empty()) item.image = dotOf(dots[static_cast<std::size_t>(k)]);
+            list.getRootMenu()->addItem(std::move(item));
+        }
         list.setText(field.value, juce::dontSendNotification);
         addAndMakeVisible(control());
     }
@@ -309,10 +315,25 @@ public:
         g.setFont(physvib::text::font(physvib::text::small));
         g.drawText(name, getLocalBounds().withWidth(nameWidth), juce::Justification::centredLeft, true);
     }
+    void paintOverChildren(juce::Graphics& g) override {
+        if (const int k = list.getSelectedItemIndex(); k >= 0 && k < static_cast<int>(dots.size()))
+            dotOf(dots[static_cast<std::size_t>(k)])
+                ->drawAt(g, static_cast<float>(getWidth()) - 56.0f,
+                         0.5f * static_cast<float>(getHeight() - dot), 1.0f);
+    }
     void resized() override { control().setBounds(getLocalBounds().withTrimmedLeft(nameWidth)); }
 
-    static constexpr int nameWidth = 130;
+    static constexpr int nameWidth = 130, dot = 16;
+    static std::unique_ptr<juce::Drawable> dotOf(juce::Colour colour) {
+        auto picture = std::make_unique<juce::DrawablePath>();
+        juce::Path circle;
+        circle.addEllipse(0.0f, 0.0f, dot, dot);
+        picture->setPath(circle);
+        picture->setFill(colour);
+        return picture;
+    }
     const juce::String name;
+    const std::vector<juce::Colour> dots;
     juce::TextEditor text;
     juce::ComboBox list;
 };
@@ -488,11 +509,19 @@ void askMaterial(juce::Component& from, MixerModel& model, int material, bool is
                  std::function<void(int material)> made) {
     static const juce::StringArray colours{"by its place", "red",  "amber", "light blue", "mauve",
                                            "tan",          "blue", "brown", "olive"};
-    const Material asked = model.world().drawing().drawn().materials[static_cast<std::size_t>(material)];
+    auto materials = model.world().drawing().drawn().materials;
+    if (isCopy) materials.push_back(Material{materials[static_cast<std::size_t>(material)]});
+    const auto index = isCopy ? materials.size() - 1 : static_cast<std::size_t>(material);
+    const Material asked = materials[index];
+    std::vector<juce::Colour> dots;
+    for (int k = 0; k < colours.size(); ++k) {
+        materials[index].colour = k;
+        dots.push_back(palette::material(materials, static_cast<int>(index)));
+    }
     const auto name = utf8(asked.name);
     askForValues(
         from, isCopy ? "A material of one's own" : "Name and colour", isCopy ? "Make it" : "Change",
-        {{"Name", isCopy ? "own " + name : name}, {"Colour", colours[asked.colour], {}, colours}},
+        {{"Name", isCopy ? "own " + name : name}, {"Colour", colours[asked.colour], {}, colours, {}, dots}},
         [&model, material, isCopy, made = std::move(made)](const juce::StringArray& values) {
             constexpr double usualHz = 165.0, usualDecay = 22.0; // of one that begins as a silent one
             Scene scene = model.world().drawing().drawn();
@@ -508,9 +537,33 @@ void askMaterial(juce::Component& from, MixerModel& model, int material, bool is
             model.dispatchPendingMessages();
             made(static_cast<int>(at));
         },
-        isCopy ? "It begins as a copy of " + name +
-                     ": set its frequency, decay and surface, or measure a recording. The world begins anew."
-               : "The world begins anew.");
+        isCopy
+            ? "It begins as a copy of " + name +
+                  ": set its frequency, decay and surface, or measure a recording. Bodies start where they "
+                  "were drawn."
+            : "Bodies start where they were drawn.");
+}
+
+void showMaterialMenu(juce::Component& from, MixerModel& model, int material, std::function<void(int)> made,
+                      std::function<void(bool isRecording)> open) {
+    const auto& materials = model.world().drawing().drawn().materials;
+    if (material < 0 || material >= static_cast<int>(materials.size())) return;
+    const Material& asked = materials[static_cast<std::size_t>(material)];
+    const auto ask = [safe = From{&from}, &model, material, made = std::move(made)](bool isCopy) {
+        return [safe, &model, material, made, isCopy] {
+            if (safe != nullptr) askMaterial(*safe, model, material, isCopy, made);
+        };
+    };
+    juce::PopupMenu menu;
+    menu.addSectionHeader(utf8(asked.name));
+    menu.addItem("Name and colour" + dots(), ask(false));
+    menu.addItem("Copy it for a new one" + dots(), ask(true));
+    if (open) menu.addItem("Frequency, decay and surface" + dots(), [open] { open(false); });
+    if (open)
+        menu.addItem("From a recording" + dots(), asked.frequencyHz > 0.0, false, [open] { open(true); });
+    menu.setLookAndFeel(&from.getLookAndFeel());
+    const auto at = juce::PopupMenu::Options{}.withTargetComponent(from);
+    menu.showMenuAsync(dynamic_cast<juce::Button*>(&from) != nullptr ? at : at.withMousePosition());
 }
 
 } // namespace physvib

@@ -117,6 +117,7 @@ public:
         juce::String allowed{};                                                   ///< characters; empty: all
         juce::StringArray choices{};                                              ///< empty: any text
         std::function<void(QuestionCard&, const juce::String& value)> onChange{}; ///< chosen or typed
+        std::vector<juce::Colour> dots{}; ///< of the choices, if these are colours
     };
 
     QuestionCard(const juce::String& title, const juce::String& words, std::vector<Answer> answers,
@@ -222,6 +223,10 @@ void askForValues(juce::Component& from, const juce::String& title, const juce::
 /// it. `made` gets its index. Message thread.
 void askMaterial(juce::Component& from, MixerModel& model, int material, bool isCopy,
                  std::function<void(int material)> made);
+/// The same from a menu, which also has the material's page with its figures, or with a choice of a
+/// recording.
+void showMaterialMenu(juce::Component& from, MixerModel& model, int material, std::function<void(int)> made,
+                      std::function<void(bool isRecording)> open);
 
 /// Keeps the keyboard and the mouse from what is behind an open card.
 /// Gives a card the keyboard, its first text field if it has one, and keeps it there. What would take it

@@ -152,8 +152,9 @@ void FirstStart::playHere() {
         return;
     }
     if (choice.isHeard) {
+        auto before = model_.device().outputMap(); // of all, which come back after them
         model_.change("Headphones", [](Mix& mix) { fitLayoutTo(DeviceChoice::ears, mix); });
-        return useHeadphones(model_, choice.device).empty() ? end(true) : show();
+        return useHeadphones(model_, choice.device, std::move(before)).empty() ? end(true) : show();
     }
     if (const auto error = model_.open(choice.device); !error.empty()) return show();
     test(std::max(1, std::min(choice.outputs, model_.device().outputs())));
@@ -232,8 +233,7 @@ void FirstStart::end(bool hasChosen) {
     model_.undoManager().clearUndoHistory(); // no undo raises the level at which it has tested
     if (std::exchange(tested_, -1) >= 0) {
         model_.setSlowness(slowness_);
-        model_.announce("The master stays at " + number(model_.mix().levelDb, 0) +
-                        " dB, as it was tested: its fader raises it");
+        model_.announce("It stays as quiet as it was tested: the master's fader raises it");
     }
     if (onEnd) onEnd(hasChosen); // may destroy this object
 }
@@ -280,10 +280,10 @@ void FirstStart::show() {
             isTimerRunning()
                 ? "It is looked for" + dots()
                 : "Actuator " + utf8(label) +
-                      (output >= 0 ? ", output " + juce::String{output + 1} : juce::String{}) + ", at " +
-                      number(model_.mix().levelDb, 0) +
-                      " dB. Click the place where you felt it, or Felt if it is where it is drawn. Space "
-                      "plays it again.");
+                      (output >= 0 ? ", output " + juce::String{output + 1} : juce::String{}) +
+                      (model_.mix().levelDb < mostDb ? ", quietly" : ", as loud as a test gets") +
+                      ". Click the place where you felt it, or Felt if it is where it is drawn. Space plays "
+                      "it again.");
     }
     fit();
 }

@@ -92,6 +92,12 @@ MixerView::MixerView(MixerModel& model)
         tabs_.choose("Actuators");
         tabs_.find<EnchantersTab>()->editRow(enchanter);
     };
+    world_.onMaterial = [this](int material, bool isRecording) {
+        tabs_.choose("Materials");
+        auto& tab = *tabs_.find<MaterialsTab>();
+        tab.choose(material);
+        if (isRecording) tab.browse();
+    };
     trouble_.setTitle("Trouble");
     trouble_.setFont(text::font(text::medium));
     dismiss_ = quietButton("Dismiss", "Dismiss the message");
@@ -305,12 +311,11 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     raiseCard();
 }
 
-// Esc closes a card or a menu, and ends a drag; what sounds, or did as long ago as meters hold, is silenced
-// as well.
+// Esc closes a menu, which is no more than that: the next one silences. It closes a card and ends a drag, and
+// what sounds, or did as long ago as meters hold, is silenced as well.
 bool MixerView::onlyCloses() {
-    if (openCard() == nullptr && juce::Component::getCurrentlyModalComponent() == nullptr &&
-        !world_.isDragging())
-        return false;
+    if (juce::Component::getCurrentlyModalComponent() != nullptr) return true;
+    if (openCard() == nullptr && !world_.isDragging()) return false;
     look();
     return model_.isOnlySeen() || std::ranges::all_of(latest_.holds, [](float h) { return h == 0.0f; });
 }
@@ -450,8 +455,11 @@ void MixerView::resized() {
     trouble_.setText(fittingWords(trouble_.getTooltip(), trouble_.getFont(), room),
                      juce::dontSendNotification);
     constexpr int between = 8;
-    trouble_.setBounds(banner.withHeight(
-        std::max(banner.getHeight(), text::high(trouble_.getFont(), trouble_.getText(), room) + between)));
+    const int high =
+        std::max(banner.getHeight(), text::high(trouble_.getFont(), trouble_.getText(), room) + between);
+    trouble_.setBounds(banner.getY() > world_.getBounds().getCentreY()
+                           ? banner.withTop(banner.getBottom() - high)
+                           : banner.withHeight(high));
     placeCards();
 }
 

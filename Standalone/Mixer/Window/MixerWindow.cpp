@@ -254,7 +254,8 @@ Mix MixerWindow::firstMix() {
     const auto& settings = files_.settings();
     Mix mix = MixerModel::firstMix();
     if (const int outputs = settings.getIntValue("outputs");
-        outputs > 0 && settings.getValue("device") == utf8(device_.name))
+        outputs > 0 && settings.getValue("device") == utf8(device_.name) &&
+        settings.getBoolValue("headphones") == device_.isHeadphones)
         fitLayoutTo(outputs, mix, device_.name);
     const DeskLimits left = limits();
     mix.levelDb = std::min(mix.levelDb, left.loudestOutputDb());
@@ -264,6 +265,11 @@ Mix MixerWindow::firstMix() {
         routes.push_back(
             std::ranges::find(device_.monitor, strip.output) == device_.monitor.end() ? strip.output : -1);
     showPlayedOutputs(routes, mix.strips);
+    if (device_.isHeadphones) return mix;
+    const auto before = std::min(mix.strips.size(), device_.beforeEars.size()); // they limit what comes after
+    takeOffHeadphones(device_, mostStripOutputs, std::span{mix.strips}.first(before),
+                      settings.getBoolValue("headphones") ? 0 : left.strips.size());
+    device_.beforeEars.clear();
     return mix;
 }
 
@@ -374,7 +380,8 @@ void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> act)
 }
 
 constexpr const char* keys =
-    "Esc\tsilence\nEsc, a card, menu or drag\tends it, silences what sounds or did 1.5 s before\n"
+    "Esc\tsilence\nEsc, a menu\tcloses it\nEsc, a card or drag\tends it, silences what sounds or did 1.5 s "
+    "before\n"
     "Space\tpause\n.\tone step of a paused world\nF2\tplay or engineer\nF3\tstrips, and what is below\n"
     "F4\tthe drawer\nF10, Ctrl+Q\tmenu, quit\nF11\tfull screen\nArrow keys\ttilt\nShift + drag\tholds a "
     "body\n"
@@ -979,11 +986,22 @@ constexpr const char *pageSetting = "page", *pageField = "Address of the page", 
 } // namespace
 
 // Where nobody has the page, the world goes as a file.
-void MixerWindow::share() {
+void MixerWindow::share(bool isElsewhere) {
     const auto link = pageLink(model_->mix(), model_->world().drawing().drawn());
     if (!link) return say(utf8(link.error));
     const auto kept = files_.settings().getValue(pageSetting);
     const auto page = served_.isNotEmpty() ? served_ : isLoopback(kept) ? juce::String{} : kept;
+    if (page.isEmpty() && !isElsewhere && !PageServer::isThere()) {
+        const auto then = [this](auto act) { return [this, act] { view_->setCard(nullptr), act(); }; };
+        return ask(
+            "Share the world",
+            "A movie plays on any phone.\nA scene is felt in another mixer, or on a web page of "
+            "PhysVib.\nThat page is not built here: after Standalone/Web/build-web.sh, Share serves it "
+            "to phones, with a code.",
+            {{"Save movie" + dots(), then([this] { saveMovie(); })},
+             {"Save as scene" + dots(), then([this] { saveScene(false); })},
+             {"Other page" + dots(), then([this] { share(true); })}});
+    }
     const auto at = [behind = utf8(link.value)](const juce::String& address) {
         return address.isEmpty() ? address : address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
     };
@@ -1012,8 +1030,7 @@ void MixerWindow::share() {
                                          : "")
                  : canServe
                      ? "Serve it here gives a web page with this world to who is in this network."
-                     : "This computer has no web page of PhysVib, which a link needs: save the scene as "
-                       "a file for another mixer, or type the address of a page.");
+                     : "Type the address of a web page of PhysVib: the link to this world there follows.");
     };
     std::vector<std::pair<juce::String, std::function<void()>>> answers{
         {copyWords,

@@ -83,8 +83,8 @@ TopBar::TopBar(MixerModel& model)
     silence_.getProperties().set(stopProperty, true);
     silence_.setMouseClickGrabsKeyboardFocus(false); // an open card keeps it
     describe(silence_, "Silence",
-             "Silence every actuator at once; a press lifts the silence. Esc silences too; an open card, "
-             "menu or drag it ends, and then silences only what sounds, or did 1.5 s before");
+             "Silence every actuator at once; a press lifts the silence. Esc silences too; a menu it "
+             "only closes, an open card or drag it ends, and silences only what sounds, or did 1.5 s before");
     silence_.onClick = [this] { model_.setSilent(!model_.isSilent()); };
     addAll(*this, {&menu_, &save_, &undo_, &redo_, &scene_, &pause_, &step_, &slow_, &restart_, &seed_,
                    &time_, &record_, &mode_, &device_, &board_, &load_, &silence_});
@@ -183,11 +183,16 @@ void TopBar::refresh(const MixerMoment& moment) {
     device_.setTooltip(name);
     const bool hadLoad = isToldOfLoad_;
     const auto& r = moment.session.render;
-    const auto lost = model_.session().world().drops() + r.untold;
+    constexpr double untilFineMs = 5e3; // without any more; Telemetry goes on counting
+    const Lost now{r.late, model_.session().world().drops() + r.untold};
+    if (std::exchange(lost_, now) != now) lostAtMs_ = nowMs();
+    if (nowMs() - lostAtMs_ > untilFineMs || now.late < lostBefore_.late || now.lost < lostBefore_.lost)
+        lostBefore_ = now; // fewer: of another device
+    const Lost news{now.late - lostBefore_.late, now.lost - lostBefore_.lost};
     load_.set("Load " + number(100.0 * moment.device.load, 1) + " %",
-              dotted({count(r.late, "late"), count(lost, "lost")}),
-              r.late + lost > 0 ? Shade::now : Shade::text);
-    isToldOfLoad_ = lost > 0 || moment.device.load > 0.5f;
+              dotted({count(news.late, "late"), count(news.lost, "lost")}),
+              news == Lost{} ? Shade::text : Shade::now);
+    isToldOfLoad_ = news.lost > 0 || moment.device.load > 0.5f;
     const auto sinks = model_.session().sinks().states();
     const bool areReady = std::ranges::all_of(sinks, &SinkState::isReady);
     board_.set(sinks.empty() ? juce::String{"Board: none"}

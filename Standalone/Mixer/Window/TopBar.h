@@ -48,6 +48,11 @@ private:
     MixerModel& model_;
     const bool hasBoard_;
     int looks_ = 0;
+    struct Lost { // in all
+        std::uint64_t late = 0, lost = 0;
+        bool operator==(const Lost&) const = default;
+    } lost_, lostBefore_; // before it was last fine
+    double lostAtMs_ = 0.0;
     bool isRecording_ = false;
     std::int64_t recordedFromNs_ = -1; // not seen yet
     juce::TextButton menu_{"Menu"}, slow_, record_, mode_, silence_{"SILENCE  Esc"};

@@ -103,13 +103,18 @@ public:
     /// `why`: it is not felt at usual impacts; empty: it is.
     void setWhy(const std::string& why) {
         isFelt_ = why.empty();
-        setTooltip(isFelt_ ? getName() + ": draw with it; with the mouse over it, it is played once"
+        setTooltip(isFelt_ ? getName() + ": draw with it; a double click: its name and colour"
                            : getName() + " is not felt at usual impacts: " + utf8(why));
         repaint();
     }
     static constexpr int pictureWide = 32;
     int namedWide() const { return 38 + text::pixels(text::font(text::small), getName()); }
     std::function<void()> onEnter;
+    std::function<void(MaterialSwatch&, bool isMenu)> onEdit; ///< a double click, or for a menu a right one
+    void mouseDown(const juce::MouseEvent& e) override {
+        e.mods.isPopupMenu() ? onEdit(*this, true) : juce::Button::mouseDown(e);
+    }
+    void mouseDoubleClick(const juce::MouseEvent&) override { onEdit(*this, false); }
     void mouseEnter(const juce::MouseEvent& e) override {
         juce::Button::mouseEnter(e);
         if (onEnter) onEnter();
@@ -159,11 +164,19 @@ namespace {
 bool vibrates(const Scene& scene, const BodyDescription& body) {
     return scene.materials[static_cast<std::size_t>(body.fixtures[0].material)].frequencyHz > 0.0;
 }
+/// What a swatch or a button asks of a material, in its menu or at once.
+void editMaterial(juce::Component& from, bool isMenu, MixerModel& model, int material,
+                  const std::function<void(int)>& made, const MaterialPage& page) {
+    if (!isMenu) return askMaterial(from, model, material, false, [](int) {});
+    showMaterialMenu(from, model, material, made,
+                     [&page, material](bool isRecording) { page(material, isRecording); });
+}
 } // namespace
 
-BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
+BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page)
     : model_{model}
-    , pane_{pane} {
+    , pane_{pane}
+    , page_{page} {
     setTitle("Chosen bodies");
     const auto change = [this](const juce::String& name, auto what, bool continuesEdit = false) {
         pane_.changeChosen(name, what, continuesEdit);
@@ -177,6 +190,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
         });
     };
     name_.setFont(text::font(text::small, juce::Font::bold));
+    name_.setMinimumHorizontalScale(1.0f);
     describe(moves_, "Moves", "Moving, or static");
     moves_.onClick = [this, change] {
         change("Moves",
@@ -247,8 +261,19 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane)
         askMaterial(*this, model_, pane_.material(), true,
                     [this](int material) { pane_.giveMaterial(material), show(); });
     };
-    addAll(*this, {&new_, &name_, &moves_, &source_, &densityName_, &density_, &bounceName_, &bounce_,
-                   &speedName_, &speed_, &torqueName_, &torque_, &springName_, &spring_, &beltName_, &belt_});
+    material_ = quietButton({}, "Material of what is chosen");
+    material_->setTooltip("The material: name, colour, copy, figures, recording");
+    material_->onClick = [this] {
+        const auto* body =
+            pane_.chosen().empty() ? nullptr : model_.world().drawing().find(pane_.chosen()[0]);
+        if (body == nullptr) return;
+        editMaterial(
+            *material_, true, model_, body->fixtures[0].material,
+            [this](int material) { pane_.giveMaterial(material), show(); }, page_);
+    };
+    addAll(*this, {&new_, material_.get(), &name_, &moves_, &source_, &densityName_, &density_, &bounceName_,
+                   &bounce_, &speedName_, &speed_, &torqueName_, &torque_, &springName_, &spring_, &beltName_,
+                   &belt_});
 }
 
 BodyPanel::~BodyPanel() = default;
@@ -294,7 +319,7 @@ void BodyPanel::show() {
         return f.restitution.value_or(scene.materials[static_cast<std::size_t>(f.material)].restitution);
     };
     const auto marked = [](const char* words, bool isMarked) {
-        return words + (isMarked ? juce::String::charToString(0x2260) : juce::String{}); // not equal
+        return words + (isMarked ? " " + juce::String::charToString(0x2260) : juce::String{}); // not equal
     };
     densityName_.setText(marked("density", differ([&](const auto& b) { return densityOf(scene, b); })),
                          juce::dontSendNotification);
@@ -329,6 +354,10 @@ void BodyPanel::show() {
             describe(swatch, "Made of " + swatch.getName(),
                      swatch.getName() + ": what is chosen is made of it");
             swatch.onClick = [this, i] { pane_.giveMaterial(i), show(); };
+            swatch.onEdit = [this, i](MaterialSwatch& from, bool isMenu) {
+                editMaterial(
+                    from, isMenu, model_, i, [this](int made) { pane_.giveMaterial(made), show(); }, page_);
+            };
             addAndMakeVisible(swatch);
             prepareControls(swatch);
         }
@@ -336,46 +365,53 @@ void BodyPanel::show() {
     }
     for (int i = 0; auto& swatch : materials_)
         swatch->setToggleState(i++ == body->fixtures[0].material && !isMixed, juce::dontSendNotification);
-    name_.setText(
-        (chosen.size() == 1 ? utf8(chosen[0]) : juce::String{static_cast<int>(chosen.size())} + " bodies") +
-            " " + juce::String::charToString(0x00b7) + " " + material,
-        juce::dontSendNotification);
+    name_.setText(chosen.size() == 1 ? utf8(chosen[0])
+                                     : juce::String{static_cast<int>(chosen.size())} + " bodies",
+                  juce::dontSendNotification);
+    material_->setButtonText(material);
+    material_->setEnabled(!isMixed);
     if (!density_.isMouseButtonDown()) density_.setValue(densityOf(scene, *body), juce::dontSendNotification);
     if (!bounce_.isMouseButtonDown()) bounce_.setValue(bounceOf(*body), juce::dontSendNotification);
 }
 
 void BodyPanel::paint(juce::Graphics& g) {
-    g.setColour(shade(*this, Shade::raised).withAlpha(0.95f));
+    g.setColour(shade(*this, Shade::raised));
     g.fillRoundedRectangle(getLocalBounds().toFloat(), 8.0f);
 }
 
-int BodyPanel::nameHigh() const {
-    return std::max(20, text::high(name_.getFont(), name_.getText(), wide - 2 * edge - 12) + 4);
-}
-
-void BodyPanel::resized() {
-    auto area = getLocalBounds().reduced(edge);
-    name_.setBounds(area.removeFromTop(nameHigh()));
-    auto row = area.removeFromTop(rowHigh);
-    moves_.setBounds(row.removeFromLeft(82));
-    source_.setBounds(row);
-    for (int k = 0; auto& swatch : materials_) {
-        if (k++ % perRow() == 0) row = area.removeFromTop(rowHigh);
-        swatch->setBounds(row.removeFromLeft(area.getWidth() / perRow()).reduced(1, 0));
-    }
-    if (std::ssize(materials_) % perRow() == 0) row = area.removeFromTop(rowHigh);
-    new_.setBounds(row.removeFromLeft(area.getWidth() / perRow()).reduced(1, 0));
+// What goes together stays in one line; in a narrow panel a slider has a line of its own.
+int BodyPanel::flow(int width, bool places) {
+    constexpr int nameWide = 94, materialWide = 100, movesWide = 80, sourceWide = 118, captionWide = 58,
+                  swatchWide = 28, between = 4;
+    const int right = width - edge;
+    int x = edge, y = edge;
+    const auto put = [&](std::initializer_list<std::pair<juce::Component*, int>> parts) {
+        int wanted = 0;
+        for (const auto& [part, wide] : parts) wanted += wide;
+        if (!parts.begin()->first->isVisible()) return;
+        if (x > edge && x + wanted > right) x = edge, y += rowHigh;
+        for (const auto& [part, wide] : parts) {
+            if (places) part->setBounds(juce::Rectangle<int>{x, y, wide, rowHigh}.reduced(0, 1));
+            x += wide;
+        }
+        x += between;
+    };
+    put({{&name_, nameWide}, {material_.get(), materialWide}});
+    put({{&moves_, movesWide}, {&source_, sourceWide}});
+    for (auto& swatch : materials_) // the one that makes another is not alone
+        if (swatch != materials_.back())
+            put({{swatch.get(), swatchWide}}), x -= between;
+        else
+            put({{swatch.get(), swatchWide}, {&new_, swatchWide}});
+    const int barWide = width > 2 * wide ? 112 : right - edge - captionWide;
     for (const auto& [label, slider] : {std::pair{&densityName_, &density_},
                                         {&bounceName_, &bounce_},
                                         {&speedName_, &speed_},
                                         {&torqueName_, &torque_},
                                         {&springName_, &spring_},
-                                        {&beltName_, &belt_}}) {
-        if (!slider->isVisible()) continue;
-        row = area.removeFromTop(rowHigh);
-        label->setBounds(row.removeFromLeft(56));
-        slider->setBounds(row.reduced(4, 2));
-    }
+                                        {&beltName_, &belt_}})
+        put({{label, captionWide}, {slider, barWide}});
+    return y + rowHigh + edge;
 }
 
 namespace {
@@ -394,9 +430,10 @@ std::set<std::tuple<bool, int, bool>> surfacesOf(const Scene& scene) {
 
 } // namespace
 
-MaterialPalette::MaterialPalette(MixerModel& model, DrawPane& pane)
+MaterialPalette::MaterialPalette(MixerModel& model, DrawPane& pane, const MaterialPage& page)
     : model_{model}
-    , pane_{pane} {
+    , pane_{pane}
+    , page_{page} {
     setTitle("Materials to draw with");
     setInterceptsMouseClicks(false, true);
     describe(count_, "Balls of a rain", "How many balls a rain has");
@@ -413,13 +450,11 @@ MaterialPalette::MaterialPalette(MixerModel& model, DrawPane& pane)
         if (const int k = way_.getSelectedItemIndex(); k >= 0)
             pane_.setRainPattern(rainPatterns[static_cast<std::size_t>(k)]);
     };
-    new_.onClick = [this] {
-        askMaterial(*this, model_, pane_.material(), true, [this](int material) {
-            pane_.setMaterial(material);
-            hintOnMaterial(model_, material);
-        });
-    };
-    addAll(*this, {&new_, &name_});
+    new_.onClick = [this] { askMaterial(*this, model_, pane_.material(), true, use_); };
+    edit_.setButtonText("Edit" + dots());
+    describe(edit_, "Edit the material", "The chosen material: name, colour, copy, figures, recording");
+    edit_.onClick = [this] { editMaterial(edit_, true, model_, pane_.material(), use_, page_); };
+    addAll(*this, {&new_, &edit_, &name_});
     addChildComponent(count_);
     addChildComponent(way_);
 }
@@ -436,9 +471,9 @@ void MaterialPalette::show() {
         for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
             auto& swatch = *swatches_.emplace_back(std::make_unique<MaterialSwatch>(
                 materials[static_cast<std::size_t>(i)], palette::material(materials, i)));
-            swatch.onClick = [this, i] {
-                pane_.setMaterial(i);
-                hintOnMaterial(model_, i);
+            swatch.onClick = [this, i] { use_(i); };
+            swatch.onEdit = [this, i](MaterialSwatch& from, bool isMenu) {
+                editMaterial(from, isMenu, model_, i, use_, page_);
             };
             // a material that makes no sound reports it elsewhere
             swatch.onEnter = [this, i] { model_.strikes().audition(i, 0.5, 0.5); };
@@ -468,11 +503,11 @@ void MaterialPalette::show() {
 
 // What is chosen, and the tool, move nothing: a hand is on its way there.
 void MaterialPalette::resized() {
-    constexpr int between = 4, countWide = 106, wayWide = 150, newWide = 28;
+    constexpr int between = 4, countWide = 106, wayWide = 150, newWide = 28, editWide = 52;
     auto area = getLocalBounds();
     way_.setBounds(area.removeFromRight(wayWide));
     count_.setBounds(area.removeFromRight(countWide + between).withTrimmedRight(between));
-    int named = newWide + between;
+    int named = newWide + between + editWide;
     for (const auto& swatch : swatches_) named += swatch->namedWide() + between;
     const bool areNamed = named <= area.getWidth();
     for (auto& swatch : swatches_) {
@@ -480,6 +515,7 @@ void MaterialPalette::resized() {
         area.removeFromLeft(between);
     }
     new_.setBounds(area.removeFromLeft(newWide));
+    edit_.setBounds(area.withTrimmedLeft(between).removeFromLeft(editWide));
     name_.setVisible(!areNamed);
     placeName();
 }
@@ -487,7 +523,7 @@ void MaterialPalette::resized() {
 // Over the room of the rain's lists while those are not there.
 void MaterialPalette::placeName() {
     name_.setBounds(getLocalBounds()
-                        .withLeft(new_.getRight())
+                        .withLeft(edit_.getRight())
                         .withRight(count_.isVisible() ? count_.getX() : getWidth()));
 }
 

@@ -34,11 +34,14 @@ private:
 /// A material's chip, which shows its decay.
 class MaterialSwatch;
 
+/// Opens the page of a material's figures, with a choice of a recording or not.
+using MaterialPage = std::function<void(int material, bool isRecording)>;
+
 /// Name and colour of each material: a click selects it for drawing, and hovering plays it once; and one that
 /// makes another. With the rain, also its number of balls. Message thread.
 class MaterialPalette final : public juce::Component {
 public:
-    MaterialPalette(MixerModel& model, DrawPane& pane);
+    MaterialPalette(MixerModel& model, DrawPane& pane, const MaterialPage& page);
     ~MaterialPalette() override;
     void show();
     void resized() override;
@@ -49,7 +52,13 @@ private:
     std::vector<Material> shown_;
     std::set<std::tuple<bool, int, bool>> surfaces_; // those that the remarks are about
     std::vector<std::unique_ptr<MaterialSwatch>> swatches_;
+    const MaterialPage& page_;
+    const std::function<void(int)> use_{[this](int material) {
+        pane_.setMaterial(material);
+        hintOnMaterial(model_, material);
+    }};
     SignButton new_{Sign::plus, "New material"};
+    juce::TextButton edit_;
     void placeName();
     Caption name_; // of the chosen one, where there is no room for all of them
     juce::ComboBox count_, way_;
@@ -59,23 +68,17 @@ private:
 /// single one also speed and torque of its motor, and stiffness of its spring. Message thread.
 class BodyPanel final : public juce::Component {
 public:
-    BodyPanel(MixerModel& model, DrawPane& pane);
+    BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page);
     ~BodyPanel() override;
     void show();
     void paint(juce::Graphics& g) override;
-    void resized() override;
-    int wantedHeight() const {
-        const int rows = static_cast<int>(materials_.size()) / perRow() + 1; // with the one that makes
-                                                                             // another
-        return 2 * edge + nameHigh() + (3 + rows) * rowHigh + (drivenJoint_.empty() ? 0 : 2 * rowHigh) +
-               (springJoint_.empty() ? 0 : rowHigh) + (belt_.isVisible() ? rowHigh : 0);
-    }
-    static constexpr int wide = 224;
+    void resized() override { flow(getWidth(), true); }
+    int heightFor(int width) { return flow(width, false); }
+    static constexpr int wide = 216; ///< beside the field; else as wide as that, in few lines
 
 private:
-    static constexpr int edge = 5, rowHigh = 24;
-    int perRow() const { return materials_.size() == 7 ? 8 : 7; } ///< the one that makes another is not alone
-    int nameHigh() const;                                         ///< in as many lines as it needs
+    static constexpr int edge = 4, rowHigh = 26;
+    int flow(int width, bool places); ///< in lines, as words are; its height
     void edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit);
 
     MixerModel& model_;
@@ -83,8 +86,10 @@ private:
     std::vector<Material> shown_;
     std::vector<std::unique_ptr<MaterialSwatch>> materials_;
     std::string drivenJoint_, springJoint_; // of the single selected body; empty: none
+    const MaterialPage& page_;
     SignButton new_{Sign::plus, "New material for what is chosen"};
-    juce::Label name_;
+    std::unique_ptr<juce::TextButton> material_;
+    Caption name_{{}, Shade::text};
     Caption densityName_{"density"}, bounceName_{"bounce"}, speedName_{"motor"}, torqueName_{"torque"},
         springName_{"spring"}, beltName_{"belt"};
     juce::ToggleButton moves_{"moves"}, source_{"haptic source"};

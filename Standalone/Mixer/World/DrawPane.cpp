@@ -65,8 +65,13 @@ void DrawPane::setMaterial(int material) {
 
 void DrawPane::giveMaterial(int material) {
     changeChosen("Material", [material](const Scene& scene, BodyDescription& body) {
-        if (scene.materials[static_cast<std::size_t>(material)].frequencyHz <= 0.0)
-            setSource(scene, body, false); // of nothing that does not vibrate
+        const auto vibrates = [&scene](int m) {
+            return scene.materials[static_cast<std::size_t>(m)].frequencyHz > 0.0;
+        };
+        if (!vibrates(material)) // of which nothing is felt
+            setSource(scene, body, false);
+        else if (!vibrates(body.fixtures[0].material) && startsAsSource(body)) // as if it were drawn now
+            setSource(scene, body, true);
         for (auto& fixture : body.fixtures) fixture.material = material;
     });
 }
@@ -440,22 +445,6 @@ std::optional<DrawPane::Handles> DrawPane::handles() const {
                    on(0.0, 0.0)};
 }
 
-juce::Rectangle<float> DrawPane::chosenArea() const {
-    constexpr float withHandles = 34.0f;
-    juce::Rectangle<float> area;
-    for (const std::string& name : chosen_)
-        if (const auto* body = drawing().find(name); body != nullptr && placeNow(name)) {
-            const Reach reach = reachOf(*body);
-            const auto radius =
-                static_cast<float>(std::max({reach.most.x, reach.most.y, -reach.least.x, -reach.least.y})) *
-                view_.pixelsPerMetre();
-            const auto around = juce::Rectangle<float>{2.0f * radius, 2.0f * radius}.withCentre(
-                view_.placeOfMetres(placeNow(name)->metres));
-            area = area.isEmpty() ? around : area.getUnion(around);
-        }
-    return area.isEmpty() ? area : area.expanded(withHandles);
-}
-
 void DrawPane::grip(const juce::MouseEvent& e) {
     if (const auto marks = handles()) {
         if (marks->turn.getDistanceFrom(e.position) < handlePixels) return void(grip_ = Grip::turn);
@@ -545,9 +534,9 @@ void DrawPane::eraseAll(const std::vector<std::string>& names, bool continuesEdi
     const bool isNeeded =
         std::ranges::any_of(names, [&](const std::string& name) { return trial.find(name) != nullptr; });
     if (!isNeeded) return edit("Erase", std::move(actions), continuesEdit);
-    const auto scene = std::make_shared<const Scene>(without(drawing().drawn(), names));
-    model_.change(
-        "Erase", [&scene](Mix& mix) { mix.scene = scene; }, continuesEdit);
+    Mix mix = model_.mix();
+    mix.scene = std::make_shared<const Scene>(without(drawing().drawn(), names));
+    model_.edit("Erase", mix, continuesEdit, true);
 }
 
 bool DrawPane::handleToolKey(const juce::KeyPress& key) {

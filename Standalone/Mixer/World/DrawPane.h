@@ -47,7 +47,6 @@ public:
     const RainPattern& rainPattern() const noexcept { return rain_.pattern(); }
     void setRainPattern(const RainPattern& pattern);
     void spawnDueBodies() { rain_.spawnDueBodies(); } ///< of a rain; to be called often
-    juce::Rectangle<float> chosenArea() const; ///< of the selected bodies with their handles, in pixels
 
     // Menu commands, at places in metres of the field.
     void addAt(DrawTool tool, Vector place); ///< a body of the usual size

@@ -6,7 +6,6 @@
 #include "Scene/SceneEdits.h"
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace physvib {
@@ -148,57 +147,36 @@ void WorldPanel::showTools() {
     placeInspector();
 }
 
-// Beside the field if there is room, else at an edge, whatever what is selected does: a hand is on its way
-// there. It moves when an edit has brought that and the badges to where another place covers half as much.
-void WorldPanel::placeInspector(bool isEdited) {
+// Beside the field if there is room, else in a line above it; wherever what is selected is, it stays there.
+void WorldPanel::placeInspector() {
     if (!body_.isVisible()) return;
     const auto room = getLocalBounds()
-                          .withTrimmedLeft(bar_.getRight())
-                          .withTrimmedTop(40)
+                          .withTrimmedTop(palette_.getBottom() + 2)
                           .withTrimmedBottom(foot)
-                          .reduced(8, 0);
-    std::vector<juce::Rectangle<int>> inTheWay{pane_.chosenArea().toNearestInt() + pane_.getPosition()};
-    for (const auto& badge : view_.badges()) inTheWay.push_back(badge.toNearestInt() + view_.getPosition());
-    const auto covered = [&](const juce::Rectangle<int>& place) {
-        int pixels = 0;
-        for (const auto& other : inTheWay) {
-            const auto common = place.getIntersection(other);
-            pixels += common.getWidth() * common.getHeight();
-        }
-        return pixels;
-    };
-    const auto now =
-        juce::Rectangle<int>{BodyPanel::wide, body_.wantedHeight()}.withPosition(body_.getPosition());
-    auto best = now;
-    const auto name = utf8(pane_.chosen().empty() ? std::string{} : pane_.chosen().front());
-    const bool isOther = body_.getName() != name;
-    if (!isOther && (!isEdited || body_.isMouseOver(true))) return body_.setBounds(now);
-    if (!inTheWay.front().isEmpty()) body_.setName(name); // what is new is there at the next step
-    int least = room.contains(now) && !isOther ? (covered(now) + 1) / 2 : std::numeric_limits<int>::max();
-    const auto& scene = model_.world().scene();
+                          .withLeft(palette_.getX())
+                          .withTrimmedRight(8);
     const auto edgeAt = [this](double metres) {
         return juce::roundToInt(view_.placeOfMetres({metres, 0.0}).x) + view_.getX();
     };
-    constexpr int apart = 20; // a badge stands on the edge
-    const int right = edgeAt(scene.fieldWidthMetres) + apart, left = edgeAt(0.0) - apart - now.getWidth();
-    std::vector<juce::Point<int>> corners;
-    if (right + now.getWidth() <= room.getRight()) corners.emplace_back(right, room.getY());
-    if (left >= room.getX()) corners.emplace_back(left, room.getY());
-    if (corners.empty())
-        for (const int x : {room.getRight() - now.getWidth(), room.getX()})
-            for (const int y : {room.getCentreY() - now.getHeight() / 2, room.getY(), room.getBottom()})
-                corners.emplace_back(x, y);
-    for (const auto& corner : corners) {
-        const auto place = now.withPosition(corner).constrainedWithin(room);
-        if (const int pixels = covered(place); pixels < least) least = pixels, best = place;
-    }
-    body_.setBounds(best);
+    // a badge stands on the edge, a wall behind it
+    constexpr int apart = 20, least = 4, wide = BodyPanel::wide;
+    const int right = edgeAt(model_.world().scene().fieldWidthMetres), left = edgeAt(0.0) - wide;
+    const int high = body_.heightFor(wide);
+    juce::Rectangle<int> place{0, room.getCentreY() - high / 2, wide, high};
+    if (right + least + wide <= room.getRight())
+        place.setX(std::min(right + apart, room.getRight() - wide));
+    else if (left - least >= room.getX())
+        place.setX(std::max(left - apart, room.getX()));
+    else
+        place = room.withHeight(body_.heightFor(room.getWidth()));
+    body_.setBounds(place);
 }
 
 juce::Rectangle<int> WorldPanel::bannerArea() const {
-    auto area = getLocalBounds().withTrimmedLeft(isShow_ ? 8 : bar_.getRight());
-    if (isShow_) area.removeFromRight(silenceWidth);
-    return area.reduced(8, 4).withHeight(28); // above badges on the upper edge
+    auto row = getLocalBounds().reduced(8, 4);
+    if (isShow_) return row.withTrimmedRight(silenceWidth).withHeight(28);
+    if (hasMaster_) row.setRight(tilt_.getX() - 8);
+    return row.removeFromBottom(foot - 9);
 }
 
 void WorldPanel::setShow(bool isShow) {
@@ -321,10 +299,11 @@ juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     if (isClip(hit.sound)) return inLines({name, place});
     const double g = strongestOf(model_, hit).levelG; // none: who would play it is muted, or has no output
     const bool isSeen = g < 0.005 || (isPlay_ && model_.isOnlySeen());
-    const auto felt = (isSeen    ? juce::String{"seen"}
-                       : isPlay_ ? strengthWords(g)
-                                 : number(g, 2) + " g") +
-                      " " + place;
+    auto felt = (isSeen    ? juce::String{"seen"}
+                 : isPlay_ ? strengthWords(g)
+                           : number(g, 2) + " g") +
+                " " + place;
+    if (isSeen) felt << ": " << whyOnlySeen(model_, hit);
     if (isPlay_) return inLines({name, felt});
     const auto hz = number(hit.frequencyHz, 0) + " Hz";
     const auto tau = juce::String::charToString(0x03c4) + " " + number(hit.decayPerSecond, 0) + " /s";
@@ -389,7 +368,7 @@ void WorldPanel::refresh(const MixerMoment& moment) {
     moveHand();
     pane_.spawnDueBodies();
     if (model_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
-    placeInspector(false);
+    placeInspector();
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits,
                   std::span{moment.meters.peaks}.first(static_cast<std::size_t>(model_.mix().count())),
                   whyMuted().isEmpty()});
@@ -429,12 +408,11 @@ void WorldPanel::resized() {
     view_.setBounds(getLocalBounds().reduced(3)); // inside the panel's round corners
     constexpr int silenceHigh = 40;               // the button lies over the corner of a show
     view_.setRoom(isShow_ ? juce::BorderSize<int>{silenceHigh, 0, 0, 0}
-                          : juce::BorderSize<int>{20, tools - 12, foot - 14, 0});
+                          : juce::BorderSize<int>{hasMaster_ ? 51 : 20, tools - 12, foot - 14, 0});
     pane_.setBounds(view_.getBounds().withTrimmedBottom(isShow_ ? 0 : foot - 4)); // not over the row of words
     top.removeFromLeft(8);
     script_.setBounds(top.withHeight(script_.getHeight()));
     palette_.setBounds(top.removeFromTop(26));
-    body_.setName({}); // in another room at another place
     placeInspector();
 }
 

@@ -60,13 +60,14 @@ public:
     void setPlay(bool isPlay, bool hasMaster);
     /// What a right click there offers. `place` in pixels of the view.
     juce::PopupMenu menuAt(juce::Point<float> place);
-    /// Where a message lies over this panel: beside the tools, above the field.
+    /// Where a message lies over this panel: on the row of words, but for the master.
     juce::Rectangle<int> bannerArea() const;
 
     static constexpr int silenceWidth = 174; ///< of the button that silences, in the corner of a show
 
     // Menu commands on an actuator that other panels carry out.
     std::function<void(int enchanter)> onOutput, onProfile;
+    MaterialPage onMaterial; ///< and on a material
 
     bool isDragging() const { return view_.isDragging() || pane_.isDrawing(); }
     void cancelDrag(); ///< all is as before it
@@ -88,7 +89,7 @@ private:
     void addActuatorItems(juce::PopupMenu& menu, int enchanter);
     void addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place);
     void addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector place);
-    void placeInspector(bool isEdited = true);
+    void placeInspector();
     void showTools();
     void edit(const juce::String& name, const Action& action);
     void play(const std::vector<Action>& actions);
@@ -104,8 +105,8 @@ private:
     WorldView view_;
     DrawPane pane_{model_, view_};
     DrawBar bar_{pane_};
-    MaterialPalette palette_{model_, pane_};
-    BodyPanel body_{model_, pane_};
+    MaterialPalette palette_{model_, pane_, onMaterial};
+    BodyPanel body_{model_, pane_, onMaterial};
     ScriptStrip script_{model_};
     Caption sentence_{{}, Shade::now}, law_, tiltName_, dragName_;
     juce::TextButton compare_{"A/B"};

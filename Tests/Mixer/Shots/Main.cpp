@@ -152,6 +152,17 @@ std::vector<State> sheetStates() {
                  {"A has no output: another actuator has it", false, {"Give a free output", [] {}}});
          }},
         {"sheet-rain", 1440, 900, 1.0, showRain},
+        {"sheet-body", 1024, 700, 1.0,
+         [](MixerModel& d, MixerView& v) {
+             v.setMode(Mode::play);
+             showRain(d, v);
+             d.report("session.json: expected 0.01 to 100, found 0");
+         }},
+        {"sheet-body-light", 1024, 700, 1.0,
+         [](MixerModel& d, MixerView& v) {
+             v.setTheme(Theme::light), v.setMode(Mode::play);
+             showRain(d, v);
+         }},
         {"sheet-phone", 1280, 800, 0.5,
          [](MixerModel&, MixerView& v) {
              v.tabs().choose("Output");

@@ -602,8 +602,20 @@ TEST(Window, ShareLeadsWhereAPersonCanGo) {
     TestFolder folder;
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     window.share();
+    ASSERT_NE(window.view().question(), nullptr);
+    if (!PageServer::isThere()) {
+        auto& files = *window.view().question();
+        EXPECT_EQ(files.getWidth(), QuestionCard::wide) << "no hole for a code";
+        EXPECT_TRUE(files.words().contains("build-web.sh")) << files.words();
+        for (const char* words : {"Save movie", "Save as scene"})
+            EXPECT_TRUE(dynamic_cast<juce::Button&>(*find(files, words + dots())).isEnabled()) << words;
+        files.answer("Other page" + dots());
+        ASSERT_TRUE(runUntil([&] {
+            auto* next = window.view().question();
+            return next != nullptr && find(*next, "Address of the page") != nullptr;
+        }));
+    }
     auto* card = window.view().question();
-    ASSERT_NE(card, nullptr);
     runFor(0.1);
     const auto said = [](juce::Component& in) {
         juce::String all;
@@ -794,6 +806,23 @@ TEST(Window, APressThatClosesAMenuDrawsNothing) {
     }
     hand.click(view, place);
     EXPECT_EQ(bodies(), before + 1) << "the next one does";
+}
+
+TEST(Window, EscClosesAMenuAndTheNextOneSilences) {
+    TestFolder folder;
+    FakeInterface hands;
+    MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("menu.json"), folder("config")};
+    Hand hand{window};
+    window.model().strikes().testPulse(0);
+    for (int k = 0; k < 100; ++k) hands.play(64);
+    hand.click(*find(window.view(), "Menu"));
+    ASSERT_TRUE(runUntil([] { return juce::Component::getCurrentlyModalComponent() != nullptr; }));
+    juce::Component::getCurrentlyModalComponent()->getPeer()->handleKeyPress(
+        juce::KeyPress{juce::KeyPress::escapeKey});
+    ASSERT_TRUE(runUntil([] { return juce::Component::getCurrentlyModalComponent() == nullptr; }));
+    EXPECT_FALSE(window.model().isSilent()) << "though it sounds";
+    hand.key(juce::KeyPress::escapeKey);
+    EXPECT_TRUE(window.model().isSilent());
 }
 
 TEST(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
@@ -1039,6 +1068,24 @@ TEST(Window, HeadphonesAreKept) {
     }
     MixerWindow asked{fakeDrivers({&hands}), "Fake:hands", {}, folder("config")};
     EXPECT_FALSE(asked.model().device().choice().isHeadphones) << "a device that is asked for has actuators";
+    EXPECT_EQ(asked.model().output().channelMap(), (std::vector{0, 1, 2, 3})) << "all of them";
+}
+
+TEST(Window, AfterHeadphonesOfTheFirstStartEveryActuatorHasAnOutput) {
+    TestFolder folder;
+    FakeInterface hands; // of eight outputs
+    {
+        MixerWindow window{fakeDrivers({&hands}), "None:no device", folder("a.json"), folder("config")};
+        auto& model = window.model();
+        FirstStart card{model, {{"Headphones: Fake:hands", {"Fake:hands"}, 8, false, true}}};
+        card.keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
+        ASSERT_EQ(model.output().channelMap(), (std::vector{0, 1}));
+        ASSERT_EQ(model.open({.name = "Fake:hands", .beforeEars = model.device().choice().beforeEars}), "");
+        window.save();
+        runFor(0.7);
+    }
+    MixerWindow next{fakeDrivers({&hands}), "", {}, folder("config")};
+    EXPECT_EQ(next.model().output().channelMap(), (std::vector{0, 1, 2, 3}));
 }
 
 TEST(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
