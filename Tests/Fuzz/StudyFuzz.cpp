@@ -35,7 +35,9 @@ void analyse(const StudyData<PercentCounts>& data) {
 
 void analyse(const StudyData<ChoiceTrial>& data) {
     for (const auto& summary : summariseChoices(data.conditions.front().trials))
-        fuzz::demand(std::isfinite(summary.shares.front().least), "a number is missing");
+        if (const auto& interval = summary.shares.front().interval)
+            fuzz::demand(std::isfinite(interval->least) && std::isfinite(interval->most),
+                         "a number is missing");
 }
 
 void analyse(const StudyData<LevelTrial>& data) {

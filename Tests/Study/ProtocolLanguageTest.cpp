@@ -419,7 +419,6 @@ TEST(ProtocolLanguage, InterleavedStaircasesAreMixedAndEachGoesItsOwnWay) {
     const auto levels = readLevels({&file, 1});
     ASSERT_TRUE(levels) << levels.error;
     const auto summary = summariseLevels(levels.value.conditions.front().trials).front();
-    EXPECT_EQ(summary.reversals, 2u * 7u) << "each ends with its eighth, which no trial follows";
     EXPECT_NEAR(summary.estimate, 0.5 * (test::thresholdDb(alone[0]) + test::thresholdDb(alone[1])), 0.5);
     Experiment resumed{protocol, {}};
     const auto log = readTrialLog(rows, "rows.csv", protocol, {});

@@ -232,8 +232,8 @@ void RehearsalPage::tellRehearsals() {
         page_.subheading(trials.protocol->title);
         const StudyReport report = studyReport(trials);
         for (const auto& [file, text] : report.files) files_[name + "/" + file] = text;
-        page_.link(name + "/index.html", std::to_string(study.count) + " simulated participants, " +
-                                             std::to_string(report.tests.size()) + " tests");
+        page_.list({name + "/index.html: " + std::to_string(study.count) + " simulated participants, " +
+                    std::to_string(report.tests.size()) + " tests"});
         if (name == "patterns" || name == "phantom-grids") compareIdentification(trials, name);
         if (name == "phantom-places") comparePlaces(trials);
         if (name == "model-or-sound") compareChoices(trials);

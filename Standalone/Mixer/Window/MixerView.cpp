@@ -311,11 +311,12 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     raiseCard();
 }
 
-// Esc closes a menu, which is no more than that: the next one silences. It closes a card and ends a drag, and
-// what sounds, or did as long ago as meters hold, is silenced as well.
+// Esc closes a card or a menu, and ends a drag; what sounds, or did as long ago as meters hold, is silenced
+// as well.
 bool MixerView::onlyCloses() {
-    if (juce::Component::getCurrentlyModalComponent() != nullptr) return true;
-    if (openCard() == nullptr && !world_.isDragging()) return false;
+    if (openCard() == nullptr && juce::Component::getCurrentlyModalComponent() == nullptr &&
+        !world_.isDragging())
+        return false;
     look();
     return model_.isOnlySeen() || std::ranges::all_of(latest_.holds, [](float h) { return h == 0.0f; });
 }

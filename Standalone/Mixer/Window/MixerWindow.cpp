@@ -380,8 +380,7 @@ void add(juce::PopupMenu& menu, const MenuItem& item, std::function<void()> act)
 }
 
 constexpr const char* keys =
-    "Esc\tsilence\nEsc, a menu\tcloses it\nEsc, a card or drag\tends it, silences what sounds or did 1.5 s "
-    "before\n"
+    "Esc\tsilence\nEsc, a card, menu or drag\tends it, silences what sounds or did 1.5 s before\n"
     "Space\tpause\n.\tone step of a paused world\nF2\tplay or engineer\nF3\tstrips, and what is below\n"
     "F4\tthe drawer\nF10, Ctrl+Q\tmenu, quit\nF11\tfull screen\nArrow keys\ttilt\nShift + drag\tholds a "
     "body\n"

@@ -39,9 +39,9 @@ public:
     void saveMovieTo(const juce::File& file, double seconds);
     void import(const juce::String& title); ///< a scene or a layout
     void exportLayout();
-    void share(bool isElsewhere = false); ///< on a page whose address is typed               ///< shows a
-                                          ///< link to the web page
-    void saveScene(bool isNow);           ///< asks for a file; bodies as drawn, or at their current places
+    /// Shows a link to the web page; `isElsewhere`: to one whose address is typed.
+    void share(bool isElsewhere = false);
+    void saveScene(bool isNow); ///< asks for a file; bodies as drawn, or at their current places
     std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or an error
     void recordScript();               ///< records user input in the world: starts or ends
     void newScene(SceneGround ground); ///< with the field and the materials of the first start

@@ -83,8 +83,8 @@ TopBar::TopBar(MixerModel& model)
     silence_.getProperties().set(stopProperty, true);
     silence_.setMouseClickGrabsKeyboardFocus(false); // an open card keeps it
     describe(silence_, "Silence",
-             "Silence every actuator at once; a press lifts the silence. Esc silences too; a menu it "
-             "only closes, an open card or drag it ends, and silences only what sounds, or did 1.5 s before");
+             "Silence every actuator at once; a press lifts the silence. Esc silences too; an open card, "
+             "menu or drag it ends, and then silences only what sounds, or did 1.5 s before");
     silence_.onClick = [this] { model_.setSilent(!model_.isSilent()); };
     addAll(*this, {&menu_, &save_, &undo_, &redo_, &scene_, &pause_, &step_, &slow_, &restart_, &seed_,
                    &time_, &record_, &mode_, &device_, &board_, &load_, &silence_});
