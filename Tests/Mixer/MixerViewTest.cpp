@@ -357,6 +357,25 @@ TEST(MixerView, AMessageCoversNoBadge) {
         EXPECT_FALSE(view.getLocalArea(&world, badge.toNearestInt()).intersects(banner.getBounds()));
 }
 
+TEST(MixerView, AMessageOfManyWordsHasRoomForThemBesideALongButton) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    view.setMode(Mode::play);
+    view.setPanels({true, false});
+    view.setSize(1024, 700);
+    const juce::String words = "2 of 4 actuators have no output: C, D. Level steps needs four of them, and "
+                               "headphones have two";
+    model.messages().show({words, false, {"Choose Model or sound instead", [] {}}});
+    model.dispatchPendingMessages();
+    const auto& banner = dynamic_cast<juce::Label&>(*find(view, "Trouble"));
+    const auto room = banner.getBorderSize().subtractedFrom(banner.getLocalBounds());
+    EXPECT_GE(room.getWidth(), 200);
+    EXPECT_GE(room.getHeight(), text::high(banner.getFont(), banner.getText(), room.getWidth()));
+    for (const char* name : {"Choose Model or sound instead", "Dismiss the message"})
+        EXPECT_FALSE(find(view, name)->getBounds().intersects(room + banner.getPosition())) << name;
+    EXPECT_TRUE(view.world().getBounds().contains(banner.getBounds()));
+}
+
 TEST(MixerView, AMessageIsFoundByItsLabel) {
     MixerModel model{onlyNoDevice(), noDevice};
     auto& messages = model.messages();

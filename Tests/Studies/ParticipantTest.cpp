@@ -270,6 +270,18 @@ TEST_F(ByAParticipant, AnAnswerWhileTheLastPartPlaysCountsOnceThatIsOver) {
     EXPECT_EQ(p->experiment().trialsTaken(), 1);
 }
 
+TEST_F(ByAParticipant, WhatTheExperimenterWasToldIsNoInstruction) {
+    p->model.report("expected the outputs as in the trials before");
+    begin(
+        R"({"name": "main", "task": "identify"})",
+        R"("layout": "phone2", "level_g": 0.2, "stimuli": "grid", "columns": 1, "rows": 1, "seconds": 0.05)");
+    passPage();
+    EXPECT_FALSE(p->screen()->getDescription().contains("trials before")) << p->screen()->getDescription();
+    p->model.report("the cable was pulled");
+    ASSERT_TRUE(test::runUntil(
+        [&] { return p->pump(), p->screen()->getDescription().contains("the cable was pulled"); }));
+}
+
 TEST_F(ByAParticipant, BeginWaitsForTheCheck) {
     ASSERT_EQ(p->tab().chooseProtocol("model-or-sound"), "");
     EXPECT_FALSE(p->tab().check()) << "it goes on";

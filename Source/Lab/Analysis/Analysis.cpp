@@ -72,6 +72,7 @@ namespace {
 /// A table in columns of spaces.
 std::string aligned(const std::string& csv) {
     const CsvTable table = readCsvTable(csv, "").value;
+    if (table.columns.empty()) return {};
     std::vector<std::vector<std::string>> rows{table.columns};
     for (const CsvRow& row : table.rows) {
         auto& cells = rows.emplace_back();

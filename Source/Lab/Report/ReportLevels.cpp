@@ -58,9 +58,9 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
             std::string{
                 "Share of correct answers by level, of all trials. Circles: area by number of trials. "
                 "Dotted: mean threshold of the n participants who have one."} +
-                (isOf(LevelTrial::Kind::staircase)
-                     ? " Threshold of a staircase: mean of the later half of its reversals."
-                     : "") +
+                (isOf(LevelTrial::Kind::staircase) ? " Threshold of a staircase: mean of the later half of "
+                                                     "the reversals that a trial follows (of 7 the last 4)."
+                                                   : "") +
                 (isOf(LevelTrial::Kind::quest)
                      ? " Threshold by QUEST+: mean of its posterior, widths of all participants together."
                      : ""));

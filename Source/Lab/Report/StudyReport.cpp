@@ -101,7 +101,7 @@ void tellTests(ReportPage& page, const CsvTable& all) {
                 {"value", "value"},
                 {"effect_size", "SD"},
                 {"n", "n"}},
-        ofNotes{{"test", "of"}, {"effect", "what"}, {"n", "n"}, {"note", "which"}},
+        ofNotes{{"test", "of"}, {"effect", "what"}, {"n", "n kept"}, {"note", "which"}},
         ofNone{{"test", "test"}, {"effect", "effect"}, {"n", "n"}, {"note", "why"}};
     const Cells cell{all};
     const auto show = [&](const Names& names, const auto& isOf) {
@@ -379,7 +379,10 @@ std::set<std::string> correctionsIn(const std::string& table) {
             const std::string& words = cell(row, column);
             return words.substr(0, words.find(','));
         };
-        const std::string test = cell(row, "test").substr(0, cell(row, "test").find(" of "));
+        const std::string& whole = cell(row, "test");
+        constexpr std::string_view variance = "analysis of variance";
+        const std::string test =
+            whole.substr(0, whole.find(" of ", whole.starts_with(variance) ? variance.size() : 0));
         if (const std::string words = name("correction"); !words.empty()) all.insert(test + ": " + words);
         if (const std::string& across = cell(row, "across"); !across.empty())
             all.insert(test + ": " + name("across") +

@@ -517,7 +517,7 @@ across <- function(tests, what, all, pairs = TRUE) {
   effect <- ifelse(pair, paste("pairs of", factor), ifelse(ranks, factor, lines$effect))
   for (one in unique(effect[pairs | !pair])) {
     i <- which(effect == one); results$p_across[at[i]] <<- p.adjust(p[i], "holm")
-    results$across[at[i]] <<- paste0("Holm, ", counted(length(i), "test"), " over ", what, if (length(no <- setdiff(all, name[i])) > 0) paste0(", not made: ", paste(no, collapse = ", ")))
+    results$across[at[i]] <<- paste0("Holm, ", counted(length(i), "test"), " over ", what, if (length(no <- setdiff(all, name[i])) > 0) paste0("; without ", paste(no, collapse = ", ")))
   }
 }
 # Objects that were rated side by side are levels of a factor; one that was also felt openly, the hidden reference, is looked at.

@@ -98,7 +98,8 @@ StudyScreen::StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> stu
     , pane_{model}
     , squaresBefore_{squareGSecondsOf(study_->exposureToday()) - model.exposure().squareGSeconds()}
     , answers_{say_}
-    , markers_{study_->protocol().name} {
+    , markers_{study_->protocol().name}
+    , troubleBefore_{model.trouble()} {
     setTitle("Study");
     setOpaque(true);
     setWantsKeyboardFocus(true);
@@ -618,9 +619,10 @@ juce::String StudyScreen::feedback() const {
     return wasRight_ ? say_(*wasRight_ ? "That was right." : "That was wrong.") + "  " : juce::String{};
 }
 
-// News is no reason why a participant feels nothing.
+// News is no reason why a participant feels nothing, nor is what the experimenter was told before.
 juce::String StudyScreen::wrong() const {
-    return model_.isNews() ? model_.device().trouble() : model_.trouble();
+    return model_.isNews() || model_.trouble() == troubleBefore_ ? model_.device().trouble()
+                                                                 : model_.trouble();
 }
 
 juce::String StudyScreen::body() const {

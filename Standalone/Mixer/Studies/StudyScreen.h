@@ -104,6 +104,7 @@ private:
                                  // from now on
     StudyAnswerPane answers_;
     StudyMarkers markers_;
+    const juce::String troubleBefore_;           // told to the experimenter, not to the participant
     bool isToBeMarked_ = false;                  ///< a part was started, and its marker is not sent yet
     std::unique_ptr<juce::Component> elsewhere_; // the separate window for answers
     Page page_ = Page::pause;

@@ -444,24 +444,30 @@ void MixerView::resized() {
                                                                                       {&between_, a.between}})
             panel->setBounds(bounds);
     }
-    auto banner = world_.bannerArea() + world_.getPosition();
-    auto buttons = banner.reduced(2);
-    dismiss_->setBounds(buttons.removeFromRight(dismissWidth - 4));
-    if (act_->isVisible())
-        act_->setBounds(
-            buttons.removeFromRight(30 + text::pixels(text::font(text::medium), act_->getButtonText())));
-    const juce::BorderSize<int> around{0, panelInset, 0, banner.getRight() - buttons.getRight() + 4};
-    trouble_.setBorderSize(around);
-    const int room = banner.getWidth() - around.getLeftAndRight() - 2;
-    trouble_.setText(fittingWords(trouble_.getTooltip(), trouble_.getFont(), room),
-                     juce::dontSendNotification);
-    constexpr int between = 8;
-    const int high =
-        std::max(banner.getHeight(), text::high(trouble_.getFont(), trouble_.getText(), room) + between);
-    trouble_.setBounds(banner.getY() > world_.getBounds().getCentreY()
-                           ? banner.withTop(banner.getBottom() - high)
-                           : banner.withHeight(high));
+    placeTrouble(world_.bannerArea() + world_.getPosition());
     placeCards();
+}
+
+// Words and buttons stand side by side; where the words would have no room, the buttons are below them.
+void MixerView::placeTrouble(juce::Rectangle<int> banner) {
+    constexpr int inset = 2, between = 8, leastWords = 240;
+    const auto& font = trouble_.getFont();
+    const int high = banner.getHeight(),
+              actWidth =
+                  act_->isVisible() ? 30 + text::pixels(text::font(text::medium), act_->getButtonText()) : 0,
+              buttonsWidth = dismissWidth - 2 + actWidth;
+    const bool isBelow = banner.getWidth() - buttonsWidth < leastWords;
+    trouble_.setBorderSize({0, panelInset, isBelow ? high : 0, isBelow ? 4 : buttonsWidth + 4});
+    const int room = banner.getWidth() - trouble_.getBorderSize().getLeftAndRight() - 2;
+    trouble_.setText(fittingWords(trouble_.getTooltip(), font, room), juce::dontSendNotification);
+    const int wanted =
+        std::max(high, text::high(font, trouble_.getText(), room) + between) + (isBelow ? high : 0);
+    banner = banner.getY() > world_.getBounds().getCentreY() ? banner.withTop(banner.getBottom() - wanted)
+                                                             : banner.withHeight(wanted);
+    trouble_.setBounds(banner);
+    auto buttons = banner.removeFromBottom(isBelow ? high : banner.getHeight()).reduced(inset);
+    dismiss_->setBounds(buttons.removeFromRight(dismissWidth - 4));
+    act_->setBounds(buttons.removeFromRight(actWidth));
 }
 
 void MixerView::placeCards() {

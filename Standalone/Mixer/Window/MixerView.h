@@ -135,6 +135,7 @@ private:
     void drawCurtain();
     void showPanels();
     void placeCards();
+    void placeTrouble(juce::Rectangle<int> banner);
     void mixChanged();
     void showLetters();
     void keepPace();

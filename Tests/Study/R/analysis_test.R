@@ -303,7 +303,7 @@ d$`ease of use` <- round(rnorm(36, 50, 9) + 5 * (d$condition == "y"), 2); d$roug
 ours <- whole(d, c("ease of use", "rough", "agree"), "agree"); three <- line(ours, "condition"); pair <- ours[ours$effect == "condition: x - y" & ours$statistic == "V", ]
 for (i in 1:2) same("over scales and ranks", three$p_across[i], p.adjust(c(three$p, pair$p), "holm")[i])
 same("ranks over scales", pair$p_across, p.adjust(c(three$p, pair$p), "holm")[3])
-if (!identical(unique(c(three$across, pair$across)), "Holm, 3 tests over scales") || !all(line(ours, "condition:stimulus")$across == "Holm, 2 tests over scales, not made: agree")) fault("the tests that are corrected together are not told")
+if (!identical(unique(c(three$across, pair$across)), "Holm, 3 tests over scales") || !all(line(ours, "condition:stimulus")$across == "Holm, 2 tests over scales; without agree")) fault("the tests that are corrected together are not told")
 # What is averaged over counts level by level, though a person has more rows of one.
 d <- expand.grid(level_db = c(0, 6), condition = c("c1", "c2"), participant = person(8), stringsAsFactors = FALSE); d$value <- exp(rnorm(32, 2)); d <- rbind(d, d[c(2, 2, 5, 7, 7), ]); d$value <- round(d$value, 3); rows(d)
 wide <- with(aggregate(log10(value) ~ ., d, mean), tapply(`log10(value)`, list(participant, condition), mean))
@@ -458,9 +458,9 @@ if (line(ours, "condition: x - z")$correction != "Holm, 2 tests") fault("a small
 d <- expand.grid(condition = c("x", "y", "z"), participant = person(7), stringsAsFactors = FALSE); d$task <- "rate"; d$session <- "main"; d$phase <- "main"; d$stimulus <- d$parts <- ""
 d$effort <- rep(c(1, 4, 6), 7); d$calm <- rep(c(2, 1, 5), 7); d$hurry <- 3; d$lost <- ""
 ours <- whole(d, c("effort", "calm", "hurry", "lost"), c("effort", "calm", "hurry"))
-if (sum(ours$across == "Holm, 2 tests over scales, not made: hurry, lost") != 2) fault("scales without a test are not named")
+if (sum(ours$across == "Holm, 2 tests over scales; without hurry, lost") != 2) fault("scales without a test are not named")
 ours <- whole(d, c("effort", "hurry", "lost"), c("effort", "hurry"))
-if (sum(ours$across == "Holm, 1 test over scales, not made: hurry, lost") != 1) fault("one scale that is left says nothing of the others")
+if (sum(ours$across == "Holm, 1 test over scales; without hurry, lost") != 1) fault("one scale that is left says nothing of the others")
 # Pairs of several alternatives are one family, of the p of the tests themselves.
 d <- expand.grid(trial = 1:9, participant = person(12), condition = c("c1", "c2", "c3"), stringsAsFactors = FALSE); d$task <- "choose"; d$session <- "main"; d$phase <- "main"; d$stimulus <- d$correct <- d$level_db <- ""; d$parts <- "A|B|C"
 d$choice <- ifelse(runif(nrow(d)) < ifelse(d$condition == "c1", 0.8, 0.2), "A", sample(c("B", "C"), nrow(d), TRUE)); ours <- whole(d, character())
