@@ -43,7 +43,7 @@ struct LimiterKernel {
 
 /// A sample in the units that OutputGuard sums: 2^21 is full scale, so 64 frames of 8 times full scale fit.
 struct GuardUnits {
-    static constexpr std::size_t tiles = 4; ///< summed together: at 48 kHz a block of 64 frames
+    static constexpr std::size_t tiles = 4;   ///< summed together: at 48 kHz a block of 64 frames
     static constexpr std::size_t stride = 64; ///< channels, as many as there may be
     static constexpr float most = 8.0f, perFullScale = 2097152.0f;
     static std::int32_t of(float x) noexcept {
