@@ -142,8 +142,7 @@ std::vector<Sentence> sentences() {
         {"level_db: Level of the trial", of(steps, 3), of(steps, 3, set("level_db", "0"))},
         {"Share of correct answers by level, of all trials. Circles: area by number of trials. Dotted: mean "
          "threshold of the n participants who have one. Threshold of a staircase: mean of the later half of "
-         "its "
-         "reversals.",
+         "the reversals that a trial follows (of 7 the last 4).",
          of(steps, 3), of(numbers, 3)},
         {" Threshold by QUEST+: mean of its posterior, widths of all participants together.", of(quest, 3),
          of(steps, 3)},

@@ -24,7 +24,7 @@ def options() -> Iterator[str]:
         output(programs / "physvib", "--reference", folder)
         command = "physvib"
         for line in (Path(folder) / "md" / "physvib.md").read_text().splitlines():
-            if heading := re.match(r"##+ `(.+)`", line):
+            if heading := re.match(r"##+ `([^`]+)`", line):
                 command = heading[1]
                 yield command
             elif option := re.match(r"\| `(.+?)` \|", line):

@@ -51,7 +51,13 @@ public:
         page_.list(names);
         page_.paragraph(std::string("physvib ") + PHYSVIB_VERSION +
                         "; seeds of rehearsals: those of the protocols.");
-        files_["index.html"] = page_.html();
+        std::string html = page_.html();
+        for (const thesis::Participants& study : thesis::participants) {
+            const std::string name = std::string{study.protocol} + "/index.html";
+            if (const auto at = html.find(name); at != std::string::npos)
+                html.replace(at, name.size(), "<a href=\"" + name + "\">" + name + "</a>");
+        }
+        files_["index.html"] = std::move(html);
         return std::move(files_);
     }
 

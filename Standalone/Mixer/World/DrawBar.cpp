@@ -493,12 +493,12 @@ void MaterialPalette::show() {
         juce::dontSendNotification);
     count_.setVisible(pane_.tool() == DrawTool::rain);
     way_.setVisible(pane_.tool() == DrawTool::rain);
-    placeName();
     for (int i = 0; i < static_cast<int>(swatches_.size()); ++i) {
         auto& swatch = *swatches_[static_cast<std::size_t>(i)];
         swatch.setToggleState(i == pane_.material(), juce::dontSendNotification);
         if (i == pane_.material()) name_.setText(swatch.getName(), juce::dontSendNotification);
     }
+    placeName();
 }
 
 // What is chosen, and the tool, move nothing: a hand is on its way there.
@@ -515,16 +515,19 @@ void MaterialPalette::resized() {
         area.removeFromLeft(between);
     }
     new_.setBounds(area.removeFromLeft(newWide));
+    edit_.setVisible(area.getWidth() >= between + editWide); // else by a double click on a swatch
     edit_.setBounds(area.withTrimmedLeft(between).removeFromLeft(editWide));
-    name_.setVisible(!areNamed);
     placeName();
 }
 
-// Over the room of the rain's lists while those are not there.
+// Over the room of the rain's lists while those are not there; a name is there whole, or not.
 void MaterialPalette::placeName() {
+    constexpr int edges = 12;
     name_.setBounds(getLocalBounds()
-                        .withLeft(edit_.getRight())
+                        .withLeft((edit_.isVisible() ? edit_.getRight() : new_.getRight()) + edges)
                         .withRight(count_.isVisible() ? count_.getX() : getWidth()));
+    const bool areNamed = !swatches_.empty() && swatches_.front()->getWidth() > MaterialSwatch::pictureWide;
+    name_.setVisible(!areNamed && text::pixels(name_.getFont(), name_.getText()) + edges <= name_.getWidth());
 }
 
 } // namespace physvib
