@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Installs what is missing, builds as released and runs every test; then what parses, what hands memory over and what is concurrent again
-# under the sanitizers, and every parser is fuzzed for a moment. What takes hours: Tests/nightly.sh.
+# Installs what is missing, builds as released and runs every test; where the files of what parses, hands memory over or is concurrent changed
+# since they passed, these again under the sanitizers (Tests/sanitizers.sh). What takes hours: Tests/nightly.sh.
 set -eu
 cd "$(dirname "$0")"
 . .ci/packages.sh
@@ -16,7 +16,7 @@ ensure_build_packages $physvib_test_packages
 
 # Engines and languages of others are tested at night, and here where they changed since the last night that passed. No label is called "none".
 at_night=none not_made=
-if Tests/Engines/passed.sh; then
+if Tests/passed.sh engines; then
     at_night=engines not_made='PHYSVIB_ENGINE_*'
 else
     # shellcheck disable=SC2086 # a list of words
@@ -52,11 +52,10 @@ build release all
 tests release quiet -j2 --progress -LE "live|display|$at_night"
 twice release display -j2 -L display
 twice release live -L live -LE "$at_night"
-build asan physvib-checked physvib-fuzzers
-Tests/Fuzz/run.sh 20000 1 >build/fuzz.log 2>&1 || { cat build/fuzz.log >&2; exit 1; }
-tests asan asan -j2 --progress -L checked
 # Nothing is left out in silence.
-Tests/House/skipped.py --at-night "$not_made" --at-night "$not_had" --at-night PHYSVIB_PICO_SDK build/release build/tests-quiet.xml build/tests-display*.xml build/tests-live*.xml build/tests-asan.xml
-build tsan physvib-checked
-tests tsan tsan -j2 --progress -L checked
-Tests/House/skipped.py --quiet --at-night "$not_made" --at-night "$not_had" --at-night PHYSVIB_PICO_SDK build/release build/tests-tsan.xml
+Tests/House/skipped.py --at-night "$not_made" --at-night "$not_had" --at-night PHYSVIB_PICO_SDK build/release build/tests-quiet.xml build/tests-display*.xml build/tests-live*.xml
+if Tests/passed.sh sanitizers; then
+    say "sanitizers: not run here: they passed with these files (Tests/passed/sanitizers.txt); Tests/sanitizers.sh does"
+else
+    Tests/sanitizers.sh --at-night "$not_made" --at-night "$not_had" --at-night PHYSVIB_PICO_SDK
+fi

@@ -32,7 +32,7 @@ physvib_pico_test_packages="nodejs npm" # where they are not there from elsewher
 # Of Tests/Firmware/pico-linux.sh alone; and what its machine in QEMU has, beside a kernel.
 physvib_pico_linux_packages="qemu-system-x86 cpio kmod g++ python3"
 physvib_pico_linux_guest="busybox-static kmod usbip alsa-utils usbutils usb.ids libc6 libudev1 libusb-1.0-0 libasound2 libasound2-data libzstd1 liblzma5 libssl3"
-# Of tests with the label engines alone: physics engines and languages of others (Tests/Engines/passed.sh says when).
+# Of tests with the label engines alone: physics engines and languages of others (Tests/passed.sh says when).
 physvib_engine_packages="nodejs love mono-mcs libchipmunk-dev libbullet-dev libode-dev libmujoco-dev"
 # Of Standalone/Web/build-web.sh, Source/Api/JavaScript/build-package.sh, Tests/web.sh and Tests/javascript.sh alone.
 physvib_web_packages="binaryen clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32 wasi-libc cmake ninja-build nlohmann-json3-dev dpkg-dev python3"

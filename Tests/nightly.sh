@@ -15,12 +15,13 @@ engines() {
     # shellcheck disable=SC2086 # a list of words
     ensure_packages $physvib_engine_packages && build release all &&
         ctest --preset release -L engines --no-tests=error --output-junit "$PWD/build/tests-engines.xml" --test-output-size-passed 1000000 &&
-        Tests/House/skipped.py --quiet --at-night PHYSVIB_PICO_SDK build/release build/tests-engines.xml && Tests/Engines/passed.sh --keep
+        Tests/House/skipped.py --quiet --at-night PHYSVIB_PICO_SDK build/release build/tests-engines.xml && Tests/passed.sh engines --keep
 }
 step() {
     case $1 in
         asan) under asan ;;
         tsan) under tsan ;;
+        sanitizers) Tests/sanitizers.sh --keep --at-night PHYSVIB_PICO_SDK ;;
         fuzz) build asan physvib-fuzzers && Tests/Fuzz/run.sh 1000000 ;;
         doors) build asan physvib-hostile-doors && build/asan/bin/physvib-hostile-doors 1000000 "$(date +%j)" ;;
         freed) Tests/Physics/freed.sh ;;

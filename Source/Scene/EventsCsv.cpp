@@ -24,7 +24,9 @@ bool isIn(OptionalColumns columns, const EventColumn& column) {
     return is<KindColumn>(column) ? columns.kinds : is<MaterialColumn>(column) ? columns.materials : true;
 }
 
-std::string columnNames(OptionalColumns columns = {}) {
+constexpr OptionalColumns everyColumn{true, true, true, true};
+
+std::string columnNames(OptionalColumns columns) {
     std::string names;
     for (const EventColumn& column : eventColumns) {
         if (!isIn(columns, column)) continue;
@@ -74,7 +76,8 @@ private:
         while (header.empty() || header.starts_with('#')) {
             if (!readComment(header)) return false;
             if (!nextLine(header))
-                return failEnd("expected a header line " + columnNames() + ", found the end of the file");
+                return failEnd("expected a header line " + columnNames(everyColumn) +
+                               ", found the end of the file");
         }
         for (std::size_t left = cellsIn(header); left > 0; --left)
             if (!readName(unquoted(trimmed(takeUntil(',', header))))) return false;
@@ -105,7 +108,8 @@ private:
             hasMaterials_ = hasMaterials_ || is<MaterialColumn>(column);
             return true;
         }
-        return fail("unknown column " + inQuotes(name) + ", expected a header line " + columnNames());
+        return fail("unknown column " + inQuotes(name) + ", expected a header line " +
+                    columnNames(everyColumn));
     }
 
     bool has(const EventColumn& column) const { return std::ranges::find(order_, &column) != order_.end(); }

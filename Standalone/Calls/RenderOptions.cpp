@@ -18,7 +18,7 @@ void declareSceneOptions(OptionTable& command, RenderJob& o) {
                 "a built-in scene (see `physvib scenes`), SCENE.json, or a CLIP" + listed(clipEndings) +
                     ", or (render, export) a saved SESSION.json, or (play) a SOUND.wav, .flac, .ogg");
     addSettings(command, o.settings);
-    command.add("--seconds", o.seconds, "length of the render").in(0.001, 86400.0, " s");
+    command.add("--seconds", o.seconds, "length").in(0.001, 86400.0, " s");
     command.add("--seed", o.seed, "seed of the scene").in(0u, 4294967295u);
     command.add("--layout", o.layout,
                 listedByNumber(layoutPresetNames) + ", study1, dualsense or a layout file");

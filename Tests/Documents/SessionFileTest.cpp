@@ -54,6 +54,13 @@ TEST(SessionFile, StrikesKeepDepthAndPartWhereTheyHaveThem) {
     EXPECT_EQ(flat.find("\"part\""), std::string::npos);
     EXPECT_EQ(readSession(with(", \"part\": -1"), "s.json").error,
               "s.json: strikes[0].part: expected 0 to 2147483647, found -1");
+    const std::string largest = std::to_string(std::numeric_limits<PartNumber>::max());
+    const auto far = readSession(with(", \"part\": " + largest + ", \"sound\": " + largest), "s.json");
+    ASSERT_EQ(far.error, "") << "names are numbers up to there";
+    EXPECT_EQ(readSession(sessionJson(far.value), "s.json").value.log.strikes, far.value.log.strikes);
+    EXPECT_EQ(far.value.log.strikes[0].sound, far.value.log.strikes[0].source.part);
+    EXPECT_EQ(readSession(with(", \"part\": 2147483648"), "s.json").error,
+              "s.json: strikes[0].part: expected a whole number, found 2147483648");
 }
 
 TEST(SessionFile, ClipsOfOlderSessionsAreKnownByTheirFrequency) {

@@ -152,6 +152,9 @@ TEST(PlayedRecorder, SaysInTheFileAtWhichSessionTimeItBegins) {
     EXPECT_FALSE(recorder.beginsSeconds());
     const std::vector<float> block(480, 0.5f);
     const float* const channels[] = {block.data()};
+    for (int i = 0; i < 3; ++i) // the world has not begun, so time stands still
+        recorder.rendered({channels, 480, -480, rateHz});
+    EXPECT_FALSE(recorder.beginsSeconds());
     recorder.rendered({channels, 480, 960, rateHz});
     recorder.rendered({channels, 480, 1440, rateHz});
     ASSERT_EQ(recorder.finish(), "");

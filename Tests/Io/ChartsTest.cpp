@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <iostream>
+#include <numbers>
 
 namespace physvib {
 namespace {
@@ -180,6 +181,31 @@ TEST(Charts, AxesHaveRoundTicksAroundAllValues) {
     const ChartAxis logarithmic = ChartAxis::logarithmic(0.05, 0.8);
     EXPECT_EQ(logarithmic.tickWords, (std::vector<std::string>{"0.05", "0.1", "0.2", "0.5"}));
     EXPECT_NEAR(logarithmic.share(0.2), 0.5, 1e-12);
+}
+
+TEST(Charts, TurnedNamesOfGroupsEndWithinThePicture) {
+    for (std::size_t groups = 2; groups <= 24; ++groups) {
+        BarChart chart{{"c", "Scores"}, "condition", "score", {}, {{"", {}}}};
+        for (std::size_t g = 0; g < groups; ++g)
+            chart.add("condition=cycling stimulus=140 group=expert", {1.0, 1.0, 1.0});
+        const std::string svg = barChart(chart);
+        const auto numberBehind = [&](const std::string& words, std::size_t from) {
+            const std::size_t at = svg.find(words, from);
+            return at == svg.npos ? std::nan("") : std::stod(svg.substr(at + words.size()));
+        };
+        const double height = numberBehind("height=\"", 0),
+                     width = textWidth(chart.groups.front(), detail::smallSize);
+        for (const double degrees : {35.0, 90.0}) {
+            const std::size_t at = svg.find("text-anchor=\"end\" fill=\"#222\" transform=\"rotate(-" +
+                                            std::to_string(static_cast<int>(degrees)) + " ");
+            if (at == svg.npos) continue;
+            const double x = numberBehind("x=\"", svg.rfind("<text", at)),
+                         y = numberBehind("y=\"", svg.rfind("<text", at)),
+                         angle = degrees * std::numbers::pi / 180.0;
+            EXPECT_LE(y + width * std::sin(angle), height) << groups;
+            EXPECT_GE(x - width * std::cos(angle), 0.0) << groups;
+        }
+    }
 }
 
 TEST(Charts, BarsAreAsHighAsTheirValues) {

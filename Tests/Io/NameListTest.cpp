@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Names of a table in help and errors.
 #include "Io/Text/NameList.h"
+#include "Io/Text/NumberText.h"
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -22,4 +24,38 @@ TEST(NameList, NumberedNamesAreOne) {
 }
 
 } // namespace
+TEST(ByNumbers, NumbersInNamesAreOrderedByValue) {
+    const std::vector<std::string> ordered{"",
+                                           "P2",
+                                           "P10",
+                                           "condition=still level=-12",
+                                           "condition=still level=-3",
+                                           "condition=still level=0.05",
+                                           "condition=still level=0.2",
+                                           "condition=still level=01",
+                                           "condition=still level=1",
+                                           "condition=still level=1 loud",
+                                           "condition=still level=70",
+                                           "condition=still level=140",
+                                           "condition=walking level=70",
+                                           "x-3",
+                                           "x-20"};
+    for (std::size_t i = 0; i < ordered.size(); ++i)
+        for (std::size_t j = 0; j < ordered.size(); ++j)
+            EXPECT_EQ(ByNumbers{}(ordered[i], ordered[j]), i < j) << ordered[i] << " and " << ordered[j];
+}
+
+TEST(ByNumbers, IsAnOrderOfAllTexts) { // each of one to four characters that it looks at
+    std::vector<std::string> all{""};
+    for (std::size_t from = 0, length = 0; length < 4; ++length)
+        for (const std::size_t end = all.size(); from < end; ++from)
+            for (const char c : {'0', '1', '9', '.', '-', 'e'}) all.push_back(all[from] + c);
+    std::ranges::sort(all, ByNumbers{});
+    for (std::size_t i = 0; i + 1 < all.size(); ++i)
+        EXPECT_TRUE(ByNumbers{}(all[i], all[i + 1]) && !ByNumbers{}(all[i + 1], all[i])) << all[i];
+    for (std::size_t i = 0; i < all.size(); i += 7) // neighbours in order tell of all
+        for (std::size_t j = i + 1; j < all.size(); j += 11)
+            EXPECT_TRUE(ByNumbers{}(all[i], all[j])) << all[i] << " and " << all[j];
+}
+
 } // namespace physvib

@@ -33,5 +33,7 @@ echo "events: $((common - 1)) played as rendered again"
 own_is_render $((48000 * (seconds - 1)))
 "$bin/physvib-compare-recording" "$folder/live.raw" "$folder/render.raw" 4 "$block" "$(sed -n 's/xruns //p' "$folder/ready")"
 grep -q " 0 late, 0 dropped, 0 refused" "$folder/report"
+ahead=$(sed -n 's|.*own.wav  begins at session time -\([0-9.]*\) s.*|\1|p' "$folder/report" | awk '{ printf "%d", 48000 * $1 + 0.5 }')
+[ "$offset" = "$ahead" ] || { echo "own.wav begins $ahead frames before session time 0, by what is printed; it is the render's $offset frames later"; exit 1; }
 begins=$(sed -n 's|.*own.wav  \(begins at session time -0\.\)|\1|p' "$folder/report") # felt the play-out delay after it happens
 [ -n "$begins" ] && grep -qaF "$begins" "$folder/own.wav"

@@ -341,7 +341,7 @@ PHYSVIB_API int physvib_layout_init(physvib_layout* layout, size_t size);
 
 /** By its name, such as "phone4"; Docs/panning.md lists them. */
 PHYSVIB_API int physvib_layout_preset(const char* name, physvib_layout* layout);
-/** Layout files (JSON), see README.md. `path` is UTF-8. */
+/** Layout files (JSON), see Docs/render.md. `path` is UTF-8. */
 PHYSVIB_API int physvib_layout_load(const char* path, physvib_layout* layout);
 /** The same from text in memory, zero-terminated. */
 PHYSVIB_API int physvib_layout_parse(const char* text, physvib_layout* layout);

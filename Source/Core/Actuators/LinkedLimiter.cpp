@@ -177,11 +177,14 @@ void LinkedLimiter::rest(std::size_t frames) noexcept {
 void LinkedLimiter::delayAndLimit(float* line, float* samples, std::size_t frames, const float* gains,
                                   float ceiling) const noexcept {
     const float* const delayed = line + front() - latencyFrames();
-    if (gains == nullptr) std::copy_n(delayed, frames, samples); // within its ceiling when it came
-    for (std::size_t n = 0; gains != nullptr && n < frames; ++n) {
-        const float y = std::min(std::max(delayed[n] * gains[n], -ceiling), ceiling);
-        samples[n] = std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
-    }
+    const auto limited = [ceiling](float x, float gain) {
+        const float y = std::min(std::max(x * gain, -ceiling), ceiling);
+        return std::abs(y) < std::numeric_limits<float>::min() ? 0.0f : y;
+    };
+    if (gains != nullptr)
+        std::transform(delayed, delayed + frames, gains, samples, limited);
+    else
+        std::copy_n(delayed, frames, samples); // within its ceiling when it came
     std::copy_n(line + frames, front(), line);
 }
 

@@ -32,7 +32,7 @@ struct LimiterKernel {
     /// Writes the inputs behind the delayed frames, with denormals as 0, and unchanged to `kept`. True if a
     /// magnitude exceeds its channel's in `mostBits`.
     bool (*take)(const LimiterLines& lines, const std::int32_t* mostBits) = nullptr;
-    /// Writes the delayed frames times `gains` (null: 1), within the ceilings, and shifts the lines.
+    /// Writes the delayed frames, as they are or times `gains` within the ceilings, and shifts the lines.
     void (*give)(const LimiterLines& lines, const float* gains, const float* ceilings) = nullptr;
     /// OutputGuard's: sums[t * GuardUnits::stride + channel] of io[channel], in its units, over the t-th of
     /// `tiles` stretches of so many frames, one after another. `tiles`: 1 or GuardUnits::tiles. Null: no

@@ -65,9 +65,9 @@ struct BarDrawing {
                                 {x + 0.5 * width, area.y(axis, bar->most)}, {"#000", 1.4});
             }
     }
-    void groupLabels(bool isTurned) const {
+    void groupLabels(bool isTurned, bool isUpright) const {
         for (std::size_t g = 0; g < chart.groups.size(); ++g) {
-            if (isTurned && groupWidth() < narrowGroup)
+            if (isUpright)
                 svg.text({middle(g) + 4.0, area.bottom + 6.0}, chart.groups[g],
                          {smallSize, Anchor::end, -90.0});
             else if (isTurned)
@@ -101,14 +101,13 @@ std::string barChart(const BarChart& chart) {
                                          : chartWidth - 14.0;
     double widest = 0.0;
     for (const std::string& group : chart.groups) widest = std::max(widest, textWidth(group, labelSize));
-    const bool isTurned = widest > 0.95 * (right - leftMargin) /
-                                       static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
-    const bool isUpright =
-        isTurned && (right - leftMargin) / static_cast<double>(chart.groups.size()) < narrowGroup;
+    const auto groups = static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
+    const bool isTurned = widest > 0.95 * (right - leftMargin) / groups;
+    const double turnedEdge =
+        isTurned ? std::max(leftMargin, 0.8 * textWidth(chart.groups.front(), smallSize) - 10.0) : leftMargin;
+    const bool isUpright = isTurned && (right - turnedEdge) / groups < narrowGroup;
     const double labels = isUpright ? 14.0 + widest : isTurned ? 18.0 + 0.60 * widest : 22.0;
-    const double leftEdge =
-        isTurned && !isUpright ? std::max(leftMargin, 0.8 * textWidth(chart.groups.front(), smallSize) - 10.0)
-                               : leftMargin;
+    const double leftEdge = isUpright ? leftMargin : turnedEdge;
     const double titleBottom = titleHeight(chart.frame.title, chartWidth);
     const double top = titleBottom + legendHeight(legend, right - leftEdge) + 8.0;
     const PlotArea area{leftEdge, top + 8.0, right, top + 8.0 + plotHeight};
@@ -122,7 +121,7 @@ std::string barChart(const BarChart& chart) {
     svg.line({area.left, zero}, {area.right, zero});
     drawing.ceilings();
     drawing.reference();
-    drawing.groupLabels(isTurned);
+    drawing.groupLabels(isTurned, isUpright);
     svg.text({0.5 * (area.left + area.right), area.bottom + labels + 16.0}, chart.groupsWords,
              {labelSize, Anchor::middle});
     return svg.finish(chart.frame.title, chart.frame.isSimulated);

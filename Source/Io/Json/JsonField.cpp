@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace physvib {
@@ -76,15 +77,17 @@ double JsonField::numberWithin(double least, double most) const {
     return found;
 }
 
-int JsonField::wholeNumber() const {
+int JsonField::wholeOf(double most) const {
     const double found = number();
-    if (!(std::abs(found) <= 1.0e9) || found != std::floor(found))
+    if (!(std::abs(found) <= most) || found != std::floor(found))
         fail("expected a whole number, found " + value_.dump());
     return static_cast<int>(found);
 }
 
+int JsonField::wholeNumber() const { return wholeOf(1.0e9); }
+
 int JsonField::wholeWithin(int least, int most) const {
-    const int found = wholeNumber();
+    const int found = wholeOf(std::numeric_limits<int>::max()); // as sounds and parts do
     if (found < least || found > most)
         fail("expected " + std::to_string(least) + " to " + std::to_string(most) + ", found " +
              std::to_string(found));

@@ -54,7 +54,7 @@ public:
     double positiveNumber() const;
     double numberUpTo(double most) const; ///< from 0
     double numberWithin(double least, double most) const;
-    int wholeNumber() const;
+    int wholeNumber() const; ///< within 1e9
     int wholeWithin(int least, int most) const;
     bool truth() const;
     /// One line of at most `mostBytes` bytes.
@@ -72,6 +72,7 @@ public:
     bool is(std::string_view word) const;
 
 private:
+    int wholeOf(double most) const;
     [[noreturn]] void failType(const std::string& expected) const;
 
     const Json& value_;

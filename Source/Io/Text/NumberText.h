@@ -2,6 +2,7 @@
 // Conversion between numbers and text, the same in every locale, and quoting of untrusted text for error
 // messages.
 #pragma once
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <concepts>
@@ -40,6 +41,38 @@ noexcept {
         if (!std::isfinite(number)) return std::nullopt;
     return number;
 }
+
+/// Orders texts as a person does: numbers in them by value ("level=70" before "level=140", "P9" before
+/// "P10"), all else by bytes. Texts that differ are never equal. Any thread.
+struct ByNumbers {
+    using is_transparent = void;
+    bool operator()(std::string_view a, std::string_view b) const noexcept {
+        const std::string_view wholeA = a, wholeB = b;
+        for (char before = ' '; !a.empty() && !b.empty();) {
+            double x = 0.0, y = 0.0;
+            const std::size_t ofA = numberAt(before, a, x), ofB = numberAt(before, b, y);
+            if ((ofA == 0) != (ofB == 0)) return ofA > 0; // numbers before other words
+            if (ofA > 0 ? x != y : a.front() != b.front()) return ofA > 0 ? x < y : a.front() < b.front();
+            before = ofA > 0 ? '0' : a.front();
+            a.remove_prefix(std::max<std::size_t>(ofA, 1)), b.remove_prefix(std::max<std::size_t>(ofB, 1));
+        }
+        return a.empty() && b.empty() ? wholeA < wholeB : a.empty();
+    }
+
+private:
+    /// Length of the number that `text` begins with behind `before`; 0: none. A minus is one behind '=' or a
+    /// space.
+    static std::size_t numberAt(char before, std::string_view text, double& number) noexcept {
+        const bool isSigned = text.starts_with('-') && (before == ' ' || before == '=');
+        const std::string_view digits = text.substr(isSigned ? 1 : 0);
+        if (digits.empty() || digits.front() < '0' || digits.front() > '9' ||
+            (before >= '0' && before <= '9'))
+            return 0;
+        const auto [stop, code] =
+            std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);
+        return code == std::errc{} ? static_cast<std::size_t>(stop - text.data()) : 0;
+    }
+};
 
 /// "1 trial", "2 trials". Any thread.
 inline std::string counted(std::size_t number, std::string_view what) {

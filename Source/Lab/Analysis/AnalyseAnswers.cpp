@@ -49,16 +49,23 @@ bool isOfPoints(const AnalysisJob& job, const RatingData& data, std::size_t scal
 
 } // namespace
 
+std::vector<RatingSummary> withoutIntervalsOfPoints(std::vector<RatingSummary> summaries,
+                                                    const AnalysisJob& job, const RatingData& data) {
+    for (std::size_t s = 0; s < data.scales.size(); ++s)
+        if (isOfPoints(job, data, s))
+            for (RatingSummary& summary : summaries) summary.halfIntervals[s] = 0.0;
+    return summaries;
+}
+
 void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
     auto& [job, report, out, table] = to;
     for (const auto& summary : bySession(data, summariseChoices))
         for (const auto& share : summary.shares) {
-            const auto percentOf = [&](double of) {
-                return std::isnan(of) ? std::nullopt : std::optional{100.0 * of};
-            };
+            const bool isKnown = !std::isnan(share.share);
             table.cells(summary.condition, share.alternative, std::size_t{share.hits},
-                        std::size_t{share.trials}, share.participants, percentOf(share.share),
-                        percentOf(share.median));
+                        std::size_t{share.trials}, share.participants,
+                        ExportTable::onlyIf(isKnown, 100.0 * share.share),
+                        ExportTable::onlyIf(isKnown, 100.0 * share.median));
             if (share.interval)
                 table.row(100.0 * share.interval->least, 100.0 * share.interval->most,
                           share.participants > 1 ? "of the median, by ranks" : "over trials, Wilson's");
@@ -78,7 +85,7 @@ void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
 void analyseRatings(const RatingData& data, const Findings& to) {
     auto& [job, report, out, table] = to;
     const auto& scales = data.scales;
-    const auto summaries = bySession(data, summariseRatings);
+    const auto summaries = withoutIntervalsOfPoints(bySession(data, summariseRatings), job, data);
     std::map<std::array<std::string, 3>, std::size_t> lacking; // session, participant, scale
     for (const auto& session : data.conditions)
         for (std::size_t s = 0; s < scales.size(); ++s) {
@@ -93,12 +100,10 @@ void analyseRatings(const RatingData& data, const Findings& to) {
     for (const auto& summary : summaries)
         for (std::size_t s = 0; s < scales.size(); ++s) {
             if (std::isnan(summary.means[s])) continue;
-            const auto known = [](double spread, bool isKnown) {
-                return spread > 0.0 && isKnown ? std::optional{spread} : std::nullopt;
-            };
+            const double deviation = summary.deviations[s], half = summary.halfIntervals[s];
             table.row(summary.condition, scales[s], summary.scored[s], summary.raters[s], summary.means[s],
-                      summary.medians[s], known(summary.deviations[s], true),
-                      known(summary.halfIntervals[s], !isOfPoints(job, data, s)));
+                      summary.medians[s], ExportTable::onlyIf(deviation > 0.0, deviation),
+                      ExportTable::onlyIf(half > 0.0, half));
         }
     report.picture = [scales, summaries, isSimulated = data.isSimulated] {
         return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, summaries);
@@ -115,12 +120,11 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
         for (const auto& [participant, threshold] : s.thresholds)
             each.row(s.kind == LevelTrial::Kind::quest ? "quest" : "staircase", s.condition, participant,
                      threshold);
-        const auto known = [&s](double spread) { // of one value there is none
-            return spread > 0.0 ? std::optional{spread} : std::nullopt;
-        };
+        // of one value there is no spread
         table.row(kindWord(s.kind), s.condition, s.stimulus, s.trials, s.participants,
-                  std::isnan(s.estimate) ? std::nullopt : std::optional{s.estimate}, known(s.deviation),
-                  known(s.halfInterval));
+                  ExportTable::onlyIf(!std::isnan(s.estimate), s.estimate),
+                  ExportTable::onlyIf(s.deviation > 0.0, s.deviation),
+                  ExportTable::onlyIf(s.halfInterval > 0.0, s.halfInterval));
     }
     report.participants = each.text();
     report.picture = [summaries, isSimulated = data.isSimulated] {
@@ -151,12 +155,10 @@ void summarise(ExportTable& summary, const std::string& condition, const std::st
                const std::vector<double>& values, bool isAboveZero = false) {
     if (values.empty()) return;
     const Moments own{values};
-    const auto known = [&](double value, bool isKnown) {
-        return own.deviation > 0.0 && isKnown ? std::optional{value} : std::nullopt;
-    };
-    const bool hasInterval = !isAboveZero || own.least() > 0.0;
-    summary.row(condition, measure, own.n, own.mean, known(own.deviation, true),
-                known(own.least(), hasInterval), known(own.most(), hasInterval));
+    const bool hasSpread = own.deviation > 0.0,
+               hasInterval = hasSpread && (!isAboveZero || own.least() > 0.0);
+    summary.row(condition, measure, own.n, own.mean, ExportTable::onlyIf(hasSpread, own.deviation),
+                ExportTable::onlyIf(hasInterval, own.least()), ExportTable::onlyIf(hasInterval, own.most()));
 }
 
 constexpr const char* summaryColumns =

@@ -63,9 +63,7 @@ void summarise(ExportTable& summary, const std::string& condition, const Confusi
                const InformationTransfer& it, const std::vector<ParticipantTransfer>& people,
                double chancePercent) {
     const Proportion all = proportion(matrix.correct(), matrix.trials());
-    const auto known = [](bool isKnown, double value) {
-        return isKnown ? std::optional{value} : std::nullopt;
-    };
+    constexpr auto known = ExportTable::onlyIf;
     std::vector<double> shares, bits;
     for (const ParticipantTransfer& own : people) {
         shares.push_back(100.0 * static_cast<double>(own.matrix.correct()) /
@@ -97,8 +95,8 @@ std::string exportPeople(const std::string& condition, const std::vector<Partici
         const bool isWhole = matrix.stimuli() == stimuli;
         const double share = static_cast<double>(matrix.correct()) / static_cast<double>(matrix.trials());
         each.row(condition, participant, std::size_t{matrix.trials()},
-                 isWhole || isOfAll ? std::optional{100.0 * share} : std::nullopt, transfer.bits,
-                 transfer.canBeCorrected() ? std::optional{transfer.correctedBits()} : std::nullopt);
+                 ExportTable::onlyIf(isWhole || isOfAll, 100.0 * share), transfer.bits,
+                 ExportTable::onlyIf(transfer.canBeCorrected(), transfer.correctedBits()));
         if (!isWhole) lacking += (lacking.empty() ? "" : ", ") + cleanLine(participant);
     }
     return lacking;
@@ -128,8 +126,7 @@ void analyseConfusion(const StudyData<IdentificationTrial>& data, const Findings
         "confusion", data.isSimulated,
         "condition,stimuli,trials,chance_percent,percent_correct,participants,mean_percent,standard_"
         "deviation,least_percent,most_percent,interval,it_bits,corrected_it_bits,most_bits,fano_bits,mean_"
-        "own_"
-        "bits,deviation_own_bits"};
+        "own_bits,deviation_own_bits"};
     std::vector<std::pair<std::string, ConfusionMatrix>> matrices;
     for (const auto& condition : data.conditions) {
         const ConfusionMatrix matrix{condition.trials};

@@ -36,11 +36,10 @@ void summarise(ExportTable& summary, const std::string& condition, const std::ve
             if (has == nullptr || one.*has) values.push_back(one.*value);
         if (values.empty() || (isOfY && !hasY)) continue;
         const Moments own{values};
-        const auto known = [&](double number) {
-            return own.deviation > 0.0 ? std::optional{number} : std::nullopt;
-        };
-        summary.row(condition, name, trials.size(), own.n, own.mean, known(own.deviation), known(own.least()),
-                    known(own.most()));
+        const bool hasSpread = own.deviation > 0.0;
+        summary.row(condition, name, trials.size(), own.n, own.mean,
+                    ExportTable::onlyIf(hasSpread, own.deviation),
+                    ExportTable::onlyIf(hasSpread, own.least()), ExportTable::onlyIf(hasSpread, own.most()));
     }
 }
 
@@ -59,8 +58,8 @@ void analysePlaces(const StudyData<PlaceTrial>& data, const Findings& to) {
         summarise(summary, condition.name, condition.trials);
         for (const TargetError& one : targetErrors(condition.trials)) {
             to.table.row(condition.name, one.participant, one.target, one.trials, one.trueX, one.trueY,
-                         one.constantX, one.constantY,
-                         one.trials > 1 ? std::optional{one.variable} : std::nullopt, one.distance);
+                         one.constantX, one.constantY, ExportTable::onlyIf(one.trials > 1, one.variable),
+                         one.distance);
         }
     }
     to.report.summary = summary.text();

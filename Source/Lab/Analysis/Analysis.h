@@ -62,6 +62,10 @@ auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t most
 /// CSV table for statistics packages, written cell by cell.
 class ExportTable {
 public:
+    /// A cell's number, where it is known.
+    static std::optional<double> onlyIf(bool isKnown, double number) {
+        return isKnown ? std::optional{number} : std::nullopt;
+    }
     ExportTable(std::string_view kind, bool isSimulated, std::string_view header) {
         Provenance provenance{PHYSVIB_VERSION, {{"analysis", std::string(kind)}}};
         if (isSimulated) provenance.entries.emplace_back("observer", "simulated");
@@ -178,6 +182,9 @@ void analysePercentCounts(const StudyData<PercentCounts>& data, const Findings& 
 // Judgements and levels: forced choices, slider ratings, staircases, QUEST+, adjustments, magnitudes.
 void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to);
 void analyseRatings(const RatingData& data, const Findings& to);
+/// Scores of points have an order and no distances, so their means have no interval: 0. Any thread.
+std::vector<RatingSummary> withoutIntervalsOfPoints(std::vector<RatingSummary> summaries,
+                                                    const AnalysisJob& job, const RatingData& data);
 /// Without the staircases and QUEST+ that did not come to their end, where the protocol is known.
 Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job);
 void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to);

@@ -109,9 +109,10 @@ std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales
     for (const RatingSummary& summary : summaries) {
         chart.groups.push_back(summary.condition);
         for (std::size_t s = 0; s < scales.size(); ++s)
-            chart.series[s].bars.push_back(std::isnan(summary.means[s])
-                                               ? std::nullopt
-                                               : std::optional{ChartValue::around(summary.means[s])});
+            chart.series[s].bars.push_back(
+                std::isnan(summary.means[s])
+                    ? std::nullopt
+                    : std::optional{ChartValue::around(summary.means[s], summary.halfIntervals[s])});
         // scores of some points have an axis of their own
         if (std::ranges::any_of(summary.means, [](double mean) { return mean > 11.0; })) chart.most = 100.0;
     }
@@ -130,7 +131,7 @@ std::string levelChart(ChartFrame frame, std::span<const LevelSummary> summaries
     for (const LevelSummary& s : summaries)
         if (s.kind == kind && !std::isnan(s.estimate))
             chart.add(s.condition + (s.stimulus.empty() ? "" : ", " + s.stimulus),
-                      ChartValue::around(s.estimate));
+                      ChartValue::around(s.estimate, s.halfInterval));
     return chart.groups.empty() ? std::string{} : barChart(chart);
 }
 

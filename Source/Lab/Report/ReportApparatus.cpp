@@ -18,7 +18,7 @@ namespace {
 
 namespace columns = trialColumns;
 
-/// Trials that had the same apparatus.
+/// Trials that had the same apparatus; those that play nothing, as a questionnaire's, are not counted.
 struct Felt {
     std::size_t trials = 0, known = 0, limited = 0; ///< known: every part left, by the column left
     double mostLimitedDb = 0.0;
@@ -36,6 +36,8 @@ void tellApparatus(ReportBuilder& report) {
     Kinds kinds;
     std::size_t unknown = 0;
     for (const CsvRow& row : all.rows) {
+        if (cell(row, columns::left).empty() && cell(row, "stimulus").empty() && cell(row, "parts").empty())
+            continue;
         if (cell(row, columns::version).empty()) {
             ++unknown;
             continue;
@@ -74,11 +76,18 @@ std::vector<double> numbersOf(std::string_view cell) {
     return numbers;
 }
 
+struct InOrder {
+    bool operator()(const auto& a, const auto& b) const {
+        return std::ranges::lexicographical_compare(a, b, ByNumbers{});
+    }
+};
+
 /// Numbers of a column by condition and session; `isFine`: and by stimulus and part.
-std::map<std::array<std::string, 4>, std::vector<double>> levelsIn(const CsvTable& all,
-                                                                   std::string_view column, bool isFine) {
+using Levels = std::map<std::array<std::string, 4>, std::vector<double>, InOrder>;
+
+Levels levelsIn(const CsvTable& all, std::string_view column, bool isFine) {
     const Cells cell{all};
-    std::map<std::array<std::string, 4>, std::vector<double>> levels;
+    Levels levels;
     for (const CsvRow& row : all.rows) {
         std::string_view parts = cell(row, "parts");
         for (const double value : numbersOf(cell(row, column)))

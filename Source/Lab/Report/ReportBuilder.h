@@ -79,6 +79,8 @@ inline std::string ofPeople(const std::vector<std::size_t>& counts) {
     return ", n = " + std::to_string(*fewest) + (*fewest < *most ? " to " + std::to_string(*most) : "");
 }
 
+inline constexpr const char* intervalsOfTheTable = ". Lines: 95 % intervals (t) of the table.";
+
 /// How many people gave the trials of each condition.
 template <class Condition>
 std::string ofPeopleIn(const std::vector<Condition>& conditions) {

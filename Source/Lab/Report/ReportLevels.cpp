@@ -32,6 +32,18 @@ void tellFits(ReportBuilder& report) {
     tellFunctions(report, data.value, fit, "psychometric.csv");
 }
 
+/// Where runs of right answers and the sizes of steps up and down balance (Levitt 1971; Kaernbach 1991).
+std::string converging(const ReportTrials& trials) {
+    std::set<std::string> shares;
+    if (trials.protocol)
+        for (const SessionPlan& session : trials.protocol->sessions)
+            if (const auto& rule = session.staircase; rule && !session.isTraining)
+                shares.insert(numberText(
+                    std::round(1000.0 * std::pow(rule->upRatio / (1.0 + rule->upRatio), 1.0 / rule->down)) /
+                    10.0));
+    return shares.empty() ? "." : "; converges to " + joined(shares, " or ") + " % correct.";
+}
+
 /// The answers by level, and the threshold that the method found.
 void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials,
                     const std::vector<LevelSummary>& summaries) {
@@ -42,7 +54,9 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
         if (s.thresholds.empty()) continue;
         std::vector<LevelAnswer> own;
         for (const LevelTrial& t : trials)
-            if (t.kind == s.kind && t.condition == s.condition)
+            if (t.kind == s.kind && t.condition == s.condition &&
+                std::ranges::count(s.thresholds, t.participant, [](const auto& one) { return one.first; }) >
+                    0)
                 own.push_back({t.participant, t.levelDb, t.value});
         charts.push_back(psychometricChart(
             report.frame(s.condition + (s.kind == LevelTrial::Kind::quest ? " by QUEST+" : " by staircase") +
@@ -55,11 +69,12 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
     if (!charts.empty())
         report.page.figure(
             charts,
-            std::string{
-                "Share of correct answers by level, of all trials. Circles: area by number of trials. "
-                "Dotted: mean threshold of the n participants who have one."} +
+            std::string{"Share of correct answers by level, of the n participants who have a threshold. "
+                        "Circles: area by "
+                        "number of trials. Dotted: their mean threshold."} +
                 (isOf(LevelTrial::Kind::staircase) ? " Threshold of a staircase: mean of the later half of "
-                                                     "the reversals that a trial follows (of 7 the last 4)."
+                                                     "the reversals that a trial follows (of 7 the last 4)" +
+                                                         converging(report.trials)
                                                    : "") +
                 (isOf(LevelTrial::Kind::quest)
                      ? " Threshold by QUEST+: mean of its posterior, widths of all participants together."
@@ -179,7 +194,8 @@ void tellLevels(ReportBuilder& report) {
         report.page.figure(
             {levelChart(report.frame("Matched levels"), summaries, LevelTrial::Kind::adjustment, reference)},
             "Mean level that was set" + ofPeople(people) +
-                (reference ? ". Dashed: level of " + reference->second : std::string{}) + ".");
+                (reference ? ". Dashed: level of " + reference->second : std::string{}) +
+                intervalsOfTheTable);
     }
     tellThresholds(report, report.read(readLevels).value.conditions.front().trials, summaries);
     if (has(LevelTrial::Kind::magnitude) && report.trials.all.column("stimulus"))

@@ -26,6 +26,7 @@ figure { margin: 1.4em 0; text-align: center; break-inside: avoid; } figure svg 
 .mark { font-weight: bold; color: #b00020; border: 2px solid #b00020; padding: .4em .8em; }
 .watermark { position: fixed; left: 0; right: 0; top: 45%; text-align: center; transform: rotate(-45deg); font: bold 88px Helvetica, Arial, sans-serif; color: #b00020; opacity: .07; pointer-events: none; }
 @media print { body { margin: 0; padding: 0; max-width: none; font-size: 10.5pt; } h2, h3 { break-after: avoid; } tr { break-inside: avoid; } details { display: none; } a { color: inherit; text-decoration: none; }
+  table { font-size: 6.6pt; } th, td { padding: 1px 2px; }
   * { -webkit-print-color-adjust: exact; print-color-adjust: exact; } }
 )";
 
@@ -52,7 +53,7 @@ constexpr std::pair<std::string_view, std::string_view> headings[] = {
     {"df2", "df of the error"},
     {"p_corrected", "corrected p"},
     {"p_across", "p corrected across"},
-    {"across", "corrected across"},
+    {"across", "correction across"},
     {"effect_size", "effect size"},
     {"size", "effect size is"},
     {"interval_least", "95 % interval (t), least"},

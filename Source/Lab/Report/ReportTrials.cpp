@@ -310,7 +310,7 @@ std::string UnfinishedRun::why() const {
 }
 
 std::string UnfinishedRun::leftOut() const {
-    if (isOver || isTraining || trials == 0) return {};
+    if (isOver || isTraining) return {};
     return isAdaptive ? "threshold" : "tests that need what is lacking";
 }
 

@@ -32,7 +32,7 @@ void tellShares(ReportBuilder& report, const StudyCondition<ChoiceTrial>& sessio
 }
 
 void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondition<RatingTrial>& session) {
-    const auto summaries = summariseRatings(session.trials);
+    const auto summaries = withoutIntervalsOfPoints(summariseRatings(session.trials), report.options(), data);
     std::set<int> all; // points of the scales of this session, or of all where they are not parted
     for (const SessionPlan& plan :
          report.trials.protocol ? report.trials.protocol->sessions : std::vector<SessionPlan>{})
@@ -44,10 +44,13 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
     for (const RatingSummary& one : summaries)
         for (const std::size_t raters : one.raters)
             if (raters > 0) people.push_back(raters);
+    const bool hasIntervals = std::ranges::any_of(summaries, [](const RatingSummary& one) {
+        return std::ranges::any_of(one.halfIntervals, [](double half) { return half > 0.0; });
+    });
     if (hasRoom(summaries))
         report.page.figure(
             {scoresChart(report.frame(title), data.scales, summaries, all.size() == 1 ? *all.begin() : 0)},
-            title + ofPeople(people) + ".");
+            title + ofPeople(people) + (hasIntervals ? intervalsOfTheTable : "."));
 }
 
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.

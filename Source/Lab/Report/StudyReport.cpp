@@ -77,43 +77,43 @@ std::vector<std::string> inPoints(const ReportTrials& trials) {
 
 /// What analysis.R wrote: a table for each test, then what was left out, and what was not tested.
 void tellTests(ReportPage& page, const CsvTable& all) {
-    using Names = std::vector<std::pair<std::string_view, std::string_view>>; // of a column, and on the page
-    const Names ofTests{{"effect", "effect"},
-                        {"statistic", "statistic"},
-                        {"df1", "df"},
-                        {"df2", "df of the error"},
-                        {"value", "value"},
-                        {"p", "p"},
-                        {"correction", "correction"},
-                        {"epsilon", "epsilon"},
-                        {"p_corrected", "corrected p"},
-                        {"across", "correction across"},
-                        {"p_across", "p corrected across"},
-                        {"size", "effect size is"},
-                        {"effect_size", "effect size"},
-                        {"n", "n"},
-                        {"difference", "difference"},
-                        {"least", "95 % interval, least"},
-                        {"most", "95 % interval, most"},
-                        {"note", "note"}},
-        ofMeans{{"effect", "level"},
-                {"statistic", "statistic"},
-                {"value", "value"},
-                {"effect_size", "SD"},
-                {"n", "n"}},
+    struct Column {
+        std::string_view name, heading = name; // the page has headings of its own for some names
+    };
+    using Columns = std::vector<Column>;
+    const Columns ofTests{{"effect"},
+                          {"statistic"},
+                          {"df1"},
+                          {"df2"},
+                          {"value"},
+                          {"p"},
+                          {"correction"},
+                          {"epsilon"},
+                          {"p_corrected"},
+                          {"across"},
+                          {"p_across"},
+                          {"size"},
+                          {"effect_size"},
+                          {"n"},
+                          {"difference"},
+                          {"least", "95 % interval, least"},
+                          {"most", "95 % interval, most"},
+                          {"note"}},
+        ofMeans{{"effect", "level"}, {"statistic"}, {"value"}, {"effect_size", "SD"}, {"n"}},
         ofNotes{{"test", "of"}, {"effect", "what"}, {"n", "n kept"}, {"note", "which"}},
-        ofNone{{"test", "test"}, {"effect", "effect"}, {"n", "n"}, {"note", "why"}};
+        ofNone{{"test"}, {"effect"}, {"n"}, {"note", "why"}};
     const Cells cell{all};
-    const auto show = [&](const Names& names, const auto& isOf) {
+    const auto show = [&](const Columns& columns, const auto& isOf) {
         std::string csv;
         const auto add = [&](auto cellOf) {
-            for (std::size_t i = 0; i < names.size(); ++i)
-                csv += i > 0 ? "," : "", appendCell(csv, cellOf(names[i]));
+            for (std::size_t i = 0; i < columns.size(); ++i)
+                csv += i > 0 ? "," : "", appendCell(csv, cellOf(columns[i]));
             csv += '\n';
         };
-        add([](const auto& name) { return name.second; });
+        add([](const Column& column) { return column.heading; });
         for (const CsvRow& row : all.rows)
-            if (isOf(row)) add([&](const auto& name) { return std::string_view{cell(row, name.first)}; });
+            if (isOf(row))
+                add([&](const Column& column) { return std::string_view{cell(row, column.name)}; });
         page.table(csv, testsTable, 200);
     };
     const auto isTest = [&](const CsvRow& row) {
@@ -130,8 +130,22 @@ void tellTests(ReportPage& page, const CsvTable& all) {
     }
     page.subheading("Left out of tests, averaged over, chance");
     show(ofNotes, [&](const CsvRow& row) { return cell(row, "kind") == "note"; });
+    const auto isNone = [&](const CsvRow& row) { return cell(row, "kind") == "not made"; };
+    if (std::ranges::none_of(all.rows, isNone)) return;
     page.subheading("Not tested");
-    show(ofNone, [&](const CsvRow& row) { return cell(row, "kind") == "not made"; });
+    show(ofNone, isNone);
+}
+
+/// What the protocol calls the one thing that tells stimuli apart; empty: several, or none.
+std::string stimulusFactor(const ReportTrials& trials) {
+    std::set<std::string> names;
+    if (trials.protocol)
+        for (const ConditionPlan& condition : trials.protocol->conditions) {
+            const CallSet* const calls = callSetOf(condition.stimuli);
+            names.insert(calls != nullptr && calls->factors.size() == 1 ? calls->factors.front().name
+                                                                        : std::string{});
+        }
+    return names.size() == 1 ? *names.begin() : std::string{};
 }
 
 /// What analysis.R finds, if it can be run here, and how else to run it.
@@ -150,6 +164,8 @@ void runTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run)
     made.tests = testsIn(table);
     report.page.paragraph("analysis.R, " +
                           table.substr(std::min<std::size_t>(2, table.size()), table.find('\n') - 2) + ".");
+    if (const std::string factor = stimulusFactor(report.trials); !factor.empty())
+        report.page.paragraph("stimulus: the protocol's factor " + factor + ".");
     if (const auto read = readCsvTable(table, testsTable); read && !read.value.rows.empty())
         tellTests(report.page, read.value);
     std::vector<std::string> tables;
@@ -414,8 +430,7 @@ std::string measuresOf(const Protocol& protocol, int participants, const StudyRe
     };
     add(hasStaircase,
         "threshold of a staircase: mean of the later half of the reversals of the level that a trial "
-        "followed; of "
-        "several staircases their mean",
+        "followed; of several staircases their mean",
         "staircases: unfinished, of fewer than two reversals, or with half or more of the trials or of the "
         "reversals that count at an end of the levels");
     add(hasQuest,
@@ -424,18 +439,15 @@ std::string measuresOf(const Protocol& protocol, int participants, const StudyRe
         "QUEST+: unfinished, or within half a step of an end of the levels");
     add(hasFunctions,
         "threshold and JND of a function: level half way up, and half of what lies between a quarter and "
-        "three "
-        "quarters; maximum likelihood, " +
+        "three quarters; maximum likelihood, " +
             report.functions,
         "functions: not rising, a constant fits as well (likelihood ratio, p > 0.05), width of 20 times the "
-        "range "
-        "of the levels, threshold outside it; of a step the JND");
+        "range of the levels, threshold outside it; of a step the JND");
     add(has([](const SessionPlan& s) { return s.adjustment.has_value(); }), "matched level: mean, dB");
     add(isOf(AnswerKind::number), "magnitude: geometric mean; exponent: slope of logarithms, least squares");
     add(has([](const SessionPlan& s) { return s.comparesPairs; }),
         "pairs of stimuli: means (similarity.csv), classical scaling (mds.csv); distance: score of scales "
-        "that "
-        "begin with dis or diff, else 100 or the number of points less the score");
+        "that begin with dis or diff, else 100 or the number of points less the score");
     add(isOf(AnswerKind::label),
         "percent correct; information transfer, from 5 trials per cell on less Miller's bias");
     add(isOf(AnswerKind::place), "place: mean of x and of y; variable error: standard deviation around it");
@@ -465,8 +477,7 @@ Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, co
     text += listOf("Participants", {std::to_string(participants)});
     text += measuresOf(protocol, participants, report);
     const bool isListed = participants < 2 || report.files.contains(testsTable);
-    std::set<std::string> corrections;
-    for (const std::string& words : correctionsIn(report.files[testsTable])) corrections.insert(words);
+    const auto corrections = correctionsIn(report.files[testsTable]);
     text += listOf("Corrections", {corrections.begin(), corrections.end()});
     text += listOf("Tests over participants, as analysis.R runs them in R", tests);
     if (tests.empty()) text += (isListed ? "none" : std::string{notListed}) + "\n";

@@ -72,7 +72,8 @@ rows.of <- function(file, measure, factors, where = character(), between = chara
 no.value <- function(d, column, measure = column) d[[column]] %in% c("", if (measure %in% names(d) && !(column %in% c("choice", "response"))) "NA") # an answer may be called NA
 groupless <- function(d) {
   several <- tapply(d$group, d$participant, function(g) length(unique(g)) > 1)
-  unique(c(d$participant[d$group %in% c("", NA)], if (isTRUE(mean(several) < 0.5)) names(which(several))))
+  none <- unique(d$participant[d$group %in% c("", NA)]); both <- setdiff(if (isTRUE(mean(several) < 0.5)) names(which(several)), none)
+  setNames(c(none, both), paste0(c(none, both), rep(c(" (group not known)", " (in several groups)"), c(length(none), length(both)))))
 }
 # A participant per row, a combination of levels per column (the last factor varies fastest): means over rows. Who lacks a combination is left out.
 cells.of <- function(rows) {
@@ -127,7 +128,7 @@ tell.lacking <- function(test, cells) { # once of the same cells
   lacking <- c(attr(cells, "lacking"), attr(cells, "absent")); unknown <- attr(cells, "unknown")
   of <- function(test) sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|.* test|pairs by (t|ranks)) of ", "", test))
   if (any(results$effect == "left out" & of(results$test) == of(test))) return(invisible())
-  if (length(unknown) > 0) remark(test, "left out", nrow(cells), paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of tests by group and of those within people beside it"))
+  if (length(unknown) > 0) remark(test, "left out", nrow(cells), paste0(paste(names(unknown), collapse = ", "), ": left out of tests by group and of those within people beside it"))
   if (length(lacking) > 0) remark(test, "left out", nrow(cells), values.lacking(lacking))
 }
 
@@ -141,6 +142,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
        else matrix(1, n, 1)
   terms <- if (length(between) > 0) attr(x, "assign") else 0
   labels <- c("", vapply(unlist(lapply(seq_along(between), function(m) combn(between, m, paste, collapse = ":")), use.names = FALSE), identity, ""))
+  if (length(between) > 0) remark(test, "model", n, "sums of squares of type III, sum contrasts")
   left.df <- n - qr(x)$rank
   if (left.df < 1) stop("expected more people than groups")
   contrast <- function(i, effect) {
@@ -166,7 +168,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
       f <- (squares / df) / (left / (d * left.df))
       p <- function(epsilon) pf(f, epsilon * df, epsilon * d * left.df, lower.tail = FALSE)
       corrected <- if (d > 1) list(p(epsilon), "Greenhouse-Geisser", epsilon) else list(NA, "", NA)
-      result(test, name, "F", f, p(1), n, df, d * left.df, corrected[[1]], corrected[[2]], corrected[[3]], "generalised eta squared", squares / (squares + errors), note = if (length(between) > 0) "type III, sum contrasts" else "")
+      result(test, name, "F", f, p(1), n, df, d * left.df, corrected[[1]], corrected[[2]], corrected[[3]], "generalised eta squared", squares / (squares + errors))
     }
     if (d > 1 && left.df >= d) attempt(test, paste(own, "sphericity"), {
       m <- mauchly.test(lm(cells ~ x - 1), T = t(contrasts[[i]]))
@@ -187,12 +189,14 @@ anova.test <- function(test, file, measure, within = character(), where = charac
     shapiro(normality, if (ncol(cells) == 2) left[, 1] - left[, 2] else left - rowMeans(left) * (ncol(cells) > 1))
     if (length(between) > 0 && ncol(cells) > 1) shapiro(paste0("normality of the participants' means", of), rowMeans(left))
   })
-  if (length(attr(cells, "lacking")) > 0) attempt(test, "mixed model", if (requireNamespace("lme4", quietly = TRUE)) mixed(test, file, measure, within, between, where)
+  if (length(attr(cells, "lacking")) > 0) attempt(paste0(secondary, test), "all", if (requireNamespace("lme4", quietly = TRUE)) mixed(test, file, measure, within, between, where)
                                                                   else stop("the package lme4, for a model of all people, is not here"))
 }) }
-# Where people lack levels, all of them in one model (lme4): each effect by the likelihood ratio of the model with and without it. People differ in
+# Where people lack levels, secondary to the analysis of those who have all, all people in one model (lme4): each effect by the likelihood ratio of the model with and without it. People differ in
 # the effects of several factors within them, too: with an intercept alone 16 of 100 studies without an effect would have one at 0.05.
+secondary <- "mixed model beside "
 mixed <- function(test, file, measure, within, between, where) {
+  test <- paste0(secondary, test)
   factors <- c(within, between)
   d <- aggregate(y ~ ., rows.of(file, measure, factors, where, between), mean)
   own <- names(d)[-c(1, ncol(d))]
@@ -201,18 +205,18 @@ mixed <- function(test, file, measure, within, between, where) {
   several <- unlist(lapply(seq_len(length(within) - 1), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE) # all of them are what is left
   random <- function(id, names) c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), ""))
   parts <- setNames(random("participant", within), random("id", sprintf("w%d", seq_along(within))))
-  remark(test, "mixed model", length(unique(d$id)), paste0("maximum likelihood, likelihood ratio of the models with and without the effect, sum contrasts, random ", paste0("(1 | ", parts, ")", collapse = " + ")))
+  remark(test, "model", length(unique(d$id)), paste0("of all people, secondary; ", "maximum likelihood, likelihood ratio of the models with and without the effect, sum contrasts, random ", paste0("(1 | ", parts, ")", collapse = " + ")))
   model <- as.formula(paste("y ~ 0 + x +", paste0("(1 | ", names(parts), ")", collapse = " + ")))
   fit <- function(x) {
     m <- suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE)); variances <- vapply(lme4::VarCorr(m), `[`, 0, 1)
     list(l = as.numeric(logLik(m)), zero = parts[names(variances)[variances <= 1e-4 * sigma(m)^2]], failed = any(grepl("converge", unlist(m@optinfo$conv$lme4$messages))))
   }
   all <- fit(x); singular <- function(zero, which) if (length(zero) > 0) paste("variance of", paste(zero, collapse = " and of "), "estimated as 0 in the model", which)
-  for (t in seq_along(effects)) { label <- paste(factors[effects[[t]]], collapse = ":"); attempt(test, paste(label, "mixed model"), {
+  for (t in seq_along(effects)) { label <- paste(factors[effects[[t]]], collapse = ":"); attempt(test, label, {
     without <- paste("without", label); less <- fit(x[, terms != t, drop = FALSE]); chi <- max(0, 2 * (all$l - less$l))
     error <- paste(c("id", own[intersect(effects[[t]], seq_along(within))]), collapse = ":") # the highest effect within people has the residual
     if (error %in% names(c(all$zero, less$zero))) stop("variance of ", parts[[error]], ", its error, is estimated as 0 in the model ", if (error %in% names(all$zero)) "with all effects" else without)
-    result(test, paste(label, "mixed model"), "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t),
+    result(test, label, "chi-squared", chi, pchisq(chi, sum(terms == t), lower.tail = FALSE), length(unique(d$id)), sum(terms == t),
            note = paste(c("chi-squared approximation", if (setequal(all$zero, less$zero)) singular(all$zero, "with it and in that without") else c(singular(all$zero, "with all effects"), singular(less$zero, without)), if (all$failed || less$failed) "did not converge"), collapse = ", "))
   }) }
 }
@@ -307,7 +311,7 @@ choices <- function(test, file, factors = NULL, where = character()) { attempt(t
   words.of <- function(f) { words <- paste0(f, "=", level(d, f)); words[f == "group" & d$participant %in% unknown] <- NA; words }
   marks <- lapply(factors, words.of)
   if (length(factors) > 1) { all <- do.call(paste, marks); all[d$participant %in% unknown] <- NA; marks <- c(marks, list(all)) }
-  if (length(unknown) > 0) remark(test, "left out", length(unique(d$participant)), paste0(paste(unknown, collapse = ", "), ": group not known, or several: left out of lines of a group"))
+  if (length(unknown) > 0) remark(test, "left out", length(unique(d$participant)), paste0(paste(names(unknown), collapse = ", "), ": left out of lines of a group"))
   if (length(absent <- setdiff(there, c(d$participant, gone))) > 0) remark(test, "left out", length(unique(d$participant)), values.lacking(absent))
   if (length(lacking <- setdiff(d$participant, whole.in(TRUE))) > 0) remark(test, "left out", length(unique(d$participant)), paste0(values.lacking(lacking), ": left out of lines over what they lack"))
   groups <- c("all", unlist(lapply(marks, function(m) sort(unique(m)))))
@@ -497,7 +501,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   if (kind == "scores") anova.test(paste("analysis of variance of", name), d, measure, design$within, between = design$between)
   else { # of two levels a pair is the whole test
     more <- Filter(function(f) length(setdiff(unique(level(d, f)), if (f == "group") c("", NA))) > 2, factors)
-    if (length(factors) > 1) remark(what, "factors", length(unique(d$participant)), "interactions: not tested by ranks")
+    if (length(factors) > 1) result(paste("interactions of", what), paste(factors, collapse = ":"), "", NA, NA, length(unique(d$participant)), note = "no test by ranks")
     if (length(more) > 0)
       friedman(paste(paste(c("Friedman's", "Kruskal and Wallis'")[c(any(design$within %in% more), any(design$between %in% more))], collapse = " and "), "test of", what, "by", paste(more, collapse = ", ")),
                d, measure, design$within, between = design$between, tested = more)
@@ -505,12 +509,12 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
   if (length(few(factors)) > 0)
     pairs.test(paste("pairs by", if (kind == "scores") "t" else "ranks", "of", name), d, measure, few(design$within), by = if (kind == "scores") "t" else "ranks",
                correction = if (as.published) "bonferroni" else "holm", between = few(design$between), paired = !as.published)
-  if (length(few(factors)) < length(factors)) remark(paste("pairs of", name), "factors", length(unique(d$participant)), "more than 12 levels")
+  if (length(few(factors)) < length(factors)) result(paste("pairs of", name), paste(setdiff(factors, few(factors)), collapse = ", "), "", NA, NA, length(unique(d$participant)), note = paste("more than", most.levels, "levels"))
 }
 # Several scales, or shares of several alternatives (`all`), ask one question each: Holm's correction over the tests of an effect that could be made. A
-# pair that is all of a factor, as of two levels by ranks, is its test. Other pairs are of alternatives one family, all of a factor; of scales each its own.
+# pair that is all of a factor, as of two levels by ranks, is its test. What is secondary has no part in it. Other pairs are of alternatives one family, all of a factor; of scales each its own.
 across <- function(tests, what, all, pairs = TRUE) {
-  at <- which(results$test %in% tests & results$statistic %in% c("F", "chi-squared", "V", "W") & !is.na(results$p)); lines <- results[at, ]
+  at <- which(results$test %in% tests & !startsWith(results$test, secondary) & results$statistic %in% c("F", "chi-squared", "V", "W") & !is.na(results$p)); lines <- results[at, ]
   name <- sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|(Friedman's|Kruskal and Wallis'|Friedman's and Kruskal and Wallis') test|pairs by ranks) of ", "", lines$test))
   p <- ifelse(lines$correction == "Greenhouse-Geisser", lines$p_corrected, lines$p)
   ranks <- lines$statistic %in% c("V", "W"); factor <- sub(": .*", "", lines$effect); pair <- ranks & paste(name, factor) %in% paste(name, factor)[!ranks]
@@ -662,7 +666,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
 }
 finish <- function(study) {
   everybody <<- character(); trials <<- NULL
-  lme4 <- if (any(grepl("mixed model", results$effect)) && requireNamespace("lme4", quietly = TRUE)) paste(", lme4", packageVersion("lme4")) else ""
+  lme4 <- if (any(startsWith(as.character(results$test), secondary)) && requireNamespace("lme4", quietly = TRUE)) paste(", lme4", packageVersion("lme4")) else ""
   writeLines(paste0("# ", study, ", ", R.version.string, lme4), "tests.csv")
   for (table in list(list(similarity, "similarity.csv"), list(places, "mds.csv"))) if (nrow(table[[1]]) > 0) {
     if (all(table[[1]]$session == "")) table[[1]]$session <- NULL

@@ -200,7 +200,7 @@ RatingSummary summarise(const std::string& condition, const Chosen& trials, bool
 }
 
 template <class Trial>
-using Groups = std::map<std::string, std::vector<const Trial*>>;
+using Groups = std::map<std::string, std::vector<const Trial*>, ByNumbers>;
 
 template <class Trial>
 Groups<Trial> byCondition(const std::vector<Trial>& trials) {
@@ -276,12 +276,6 @@ bool isThreshold(LevelTrial::Kind kind) {
 bool isSame(const LevelSummary& s, const LevelTrial& t) {
     return s.kind == t.kind && s.condition == t.condition &&
            (isThreshold(t.kind) || s.stimulus == t.stimulus);
-}
-
-/// Sort key: numbers by value, then all other labels by their bytes.
-auto labelKey(const std::string& label) {
-    const auto number = parseNumber<double>(label);
-    return std::tuple{!number, number.value_or(0.0), std::string_view{label}};
 }
 
 using Run = std::vector<const LevelTrial*>; // one participant's trials of a session, or of one staircase
@@ -427,8 +421,10 @@ std::vector<LevelSummary> summariseLevels(const std::vector<LevelTrial>& trials)
     for (const LevelTrial& trial : trials)
         if (std::ranges::none_of(summaries, [&](const auto& s) { return isSame(s, trial); }))
             summaries.push_back({trial.kind, trial.condition, isThreshold(trial.kind) ? "" : trial.stimulus});
-    std::ranges::stable_sort(summaries, {}, [](const LevelSummary& s) {
-        return std::tuple{s.kind, std::string_view{s.condition}, labelKey(s.stimulus)};
+    std::ranges::stable_sort(summaries, [](const LevelSummary& a, const LevelSummary& b) {
+        if (a.kind != b.kind) return a.kind < b.kind;
+        return a.condition != b.condition ? ByNumbers{}(a.condition, b.condition)
+                                          : ByNumbers{}(a.stimulus, b.stimulus);
     });
     for (LevelSummary& summary : summaries) {
         std::map<std::string, Run> byParticipant;

@@ -558,9 +558,10 @@ void showMaterialMenu(juce::Component& from, MixerModel& model, int material, st
     menu.addSectionHeader(utf8(asked.name));
     menu.addItem("Name and colour" + dots(), ask(false));
     menu.addItem("Copy it for a new one" + dots(), ask(true));
-    if (open) menu.addItem("Frequency, decay and surface" + dots(), [open] { open(false); });
-    if (open)
+    if (open) {
+        menu.addItem("Frequency, decay and surface" + dots(), [open] { open(false); });
         menu.addItem("From a recording" + dots(), asked.frequencyHz > 0.0, false, [open] { open(true); });
+    }
     menu.setLookAndFeel(&from.getLookAndFeel());
     const auto at = juce::PopupMenu::Options{}.withTargetComponent(from);
     menu.showMenuAsync(dynamic_cast<juce::Button*>(&from) != nullptr ? at : at.withMousePosition());
