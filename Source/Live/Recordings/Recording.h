@@ -54,7 +54,8 @@ public:
     /// Frames that find the buffer full are lost and counted. R, wait-free.
     void rendered(const RenderedBlock& block) noexcept PHYSVIB_NONBLOCKING override {
         if (block.sampleRateHz != sampleRateHz_) isWhole_.store(false, std::memory_order_relaxed);
-        // the output runs before the world's first step: session time stands still, and nothing is to be heard
+        // the output runs before the world's first step: session time stands still, and nothing is to be
+        // heard
         if (!isWhole() || block.sessionFrame < 0) return;
         if (firstFrame_.load(std::memory_order_relaxed) < 0)
             firstFrame_.store(block.sessionFrame, std::memory_order_relaxed);
