@@ -140,22 +140,27 @@ std::vector<Sentence> sentences() {
         {"a8_m_per_s2: the participant's exposure up to there", of(grid, 3, set("a8_m_per_s2", "0.1")),
          of(grid, 3)},
         {"level_db: Level of the trial", of(steps, 3), of(steps, 3, set("level_db", "0"))},
-        {"Share of correct answers by level, of all trials. Circles: area by number of trials. Dotted: mean "
-         "threshold of the n participants who have one. Threshold of a staircase: mean of the later half of "
-         "the reversals that a trial follows (of 7 the last 4).",
+        {"Share of correct answers by level, of all trials, also of who is left out. Circles: larger of more "
+         "trials. Dotted: mean threshold of the n participants who have one. Threshold of a staircase: mean "
+         "of "
+         "the later half of the reversals that a trial follows (of 7 the last 4); converges to 70.7 % "
+         "correct.",
          of(steps, 3), of(numbers, 3)},
         {" Threshold by QUEST+: mean of its posterior, widths of all participants together.", of(quest, 3),
          of(steps, 3)},
-        {"Circles: trials of who has a function, area by number. Thin lines: participants' functions, "
+        {"Circles: trials of who has a function, larger of more. Thin lines: participants' functions, "
          "logistic, "
          "guess rate 50 %, lapse rate up to 10 %. Thick: mean threshold and mean width. Dotted: mean "
          "threshold. "
-         "JND: half of what lies between 0.25 and 0.75 of the function.",
+         "Column jnd: half of what lies between 0.25 and 0.75 of the function, a slope; no difference "
+         "threshold of "
+         "forced choices.",
          of(constant, 3, rising, true), of(constant, 3, alike, true)},
-        {"Circles: all trials, area by number.", of(constant, 3, alike, true), of(constant, 3, rising, true)},
+        {"Circles: all trials, larger of more.", of(constant, 3, alike, true), of(constant, 3, rising, true)},
         {"not analysed: nobody can be fitted", of(constant, 3, alike, true), of(constant, 3, rising, true)},
-        {"fits as well: no JND; threshold: its middle", of(constant, 3, step, true),
-         of(constant, 3, rising, true)},
+        {"fit as well, of functions as steep as one likes: no half interquartile range; threshold: the "
+         "middle",
+         of(constant, 3, step, true), of(constant, 3, rising, true)},
         {"participant P2 left out: expected answers that change with the level",
          of(constant, 3, both(rising, alikeOfP2), true), of(constant, 3, rising, true)},
         {"lies outside the levels that were played", of(constant, 3, certainAbove("210", 9), true),
@@ -163,6 +168,7 @@ std::vector<Sentence> sentences() {
         {"over trials, Wilson's", of(fits, 1), of(fits, 3)},
         {"Mean score of each scale in late, n = 3.", of(twice, 3, {}, true), of(methods, 3)},
         {"Mean score of each scale, n = 3.", of(methods, 3), of(grid, 3)},
+        {". Lines: 95 % intervals (t) of the table.", of(fits, 3), of(fits, 1)},
         {"Mean share of each alternative in which, n = 3.", of(twice, 3, {}, true), of(fits, 3)},
         {"without a score of", of(twice, 3, unscored, true), of(twice, 3, {}, true)},
         {"Mean level that was set, n = 3", of(matched, 3, {}, true), of(steps, 3)},

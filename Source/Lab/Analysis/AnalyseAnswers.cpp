@@ -220,16 +220,17 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
                 jnds.push_back(f.jnd());
             else
                 warnOf(report, condition.name, own.participant,
-                       ": a step from " + shownCell(plainNumber(own.fit.steps.first)) + " to " +
-                           shownCell(plainNumber(own.fit.steps.second)) + " fits as well: no JND; " +
-                           words.half(o.model) + ": its middle");
+                       ": thresholds from " + shownCell(plainNumber(own.fit.steps.first)) + " to " +
+                           shownCell(plainNumber(own.fit.steps.second)) +
+                           " fit as well, of functions as steep as one likes: no " + words.slope(o.model) +
+                           "; " + words.half(o.model) + ": the middle");
             table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),
                       ifKnown(f.jnd()), f.guess, f.lapse, own.fit.logLikelihood);
         }
         if (thresholds.empty()) continue;
         isFitted = true;
         summarise(summary, condition.name, words.half(o.model), thresholds);
-        summarise(summary, condition.name, "JND", jnds, true);
+        summarise(summary, condition.name, words.slope(o.model), jnds, true);
     }
     if (!isFitted) return tellNobodyFitted(to);
     report.summary = summary.text();

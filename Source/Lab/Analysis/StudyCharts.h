@@ -62,6 +62,11 @@ struct FitWords {
                : answer.find('=') < answer.size() ? "point of subjective equality"
                                                   : "50 % point";
     }
+    /// What half of the range between a quarter and three quarters is: of forced choices a slope, as both lie
+    /// on one side of what they are compared with.
+    static const char* slope(const PsychometricModel& model) {
+        return model.guess > 0.0 ? "half interquartile range" : "JND";
+    }
 };
 
 /// Labels for another program's table, from its column mapping or the chosen columns (or empty). Any thread.

@@ -28,6 +28,7 @@ public:
     std::vector<std::string> scales; ///< columns of ratings that can be read
     std::string half{};              ///< what the page calls the level of a half
     std::string functions{};         ///< "logistic, guess rate ...", of those that are fitted
+    std::string slope{};             ///< what the column jnd is
     bool isSimulated() const noexcept { return trials.isSimulated; }
 
     /// Number of participants in the rows, by the column participant; 1 without it.

@@ -54,9 +54,7 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
         if (s.thresholds.empty()) continue;
         std::vector<LevelAnswer> own;
         for (const LevelTrial& t : trials)
-            if (t.kind == s.kind && t.condition == s.condition &&
-                std::ranges::count(s.thresholds, t.participant, [](const auto& one) { return one.first; }) >
-                    0)
+            if (t.kind == s.kind && t.condition == s.condition)
                 own.push_back({t.participant, t.levelDb, t.value});
         charts.push_back(psychometricChart(
             report.frame(s.condition + (s.kind == LevelTrial::Kind::quest ? " by QUEST+" : " by staircase") +
@@ -69,9 +67,8 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
     if (!charts.empty())
         report.page.figure(
             charts,
-            std::string{"Share of correct answers by level, of the n participants who have a threshold. "
-                        "Circles: area by "
-                        "number of trials. Dotted: their mean threshold."} +
+            std::string{"Share of correct answers by level, of all trials, also of who is left out. Circles: "
+                        "larger of more trials. Dotted: mean threshold of the n participants who have one."} +
                 (isOf(LevelTrial::Kind::staircase) ? " Threshold of a staircase: mean of the later half of "
                                                      "the reversals that a trial follows (of 7 the last 4)" +
                                                          converging(report.trials)
@@ -138,7 +135,7 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
     if (isFitted) report.page.table(report.tableText(name), name, 200, true);
     const FitWords words = fitWords(report.trials.columns, fit.level, fit.measure);
     const PsychometricModel& model = fit.model;
-    report.half = words.half(model);
+    report.half = words.half(model), report.slope = words.slope(model);
     report.functions =
         std::string(psychometricShapeNames[static_cast<std::size_t>(model.shape)]) +
         (model.guess > 0.0 ? ", guess rate " + numberText(std::round(1000.0 * model.guess) / 10.0) + " %"
@@ -153,10 +150,12 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
     report.page.figure(
         charts,
         "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
-            ". Circles: " + (isFitted ? "trials of who has a function" : "all trials") + ", area by number." +
+            ". Circles: " + (isFitted ? "trials of who has a function" : "all trials") + ", larger of more." +
             (isFitted ? " Thin lines: participants' functions, " + report.functions + ". Thick: mean " +
                             report.half + " and mean width. Dotted: mean " + report.half +
-                            ". JND: half of what lies between 0.25 and 0.75 of the function."
+                            ". Column jnd: half of what lies between 0.25 and 0.75 of the function" +
+                            (model.guess > 0.0 ? ", a slope; no difference threshold of forced choices."
+                                               : ": JND.")
                       : ""));
 }
 

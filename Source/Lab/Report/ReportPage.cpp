@@ -46,7 +46,7 @@ constexpr std::pair<std::string_view, std::string_view> headings[] = {
     {"corrected_it_bits", "IT less Miller's bias (bit)"},
     {"most_bits", "log2 of stimuli (bit)"},
     {"fano_bits", "Fano's lower bound (bit)"},
-    {"mean_own_bits", "mean of participants' own IT (bit)"},
+    {"mean_own_bits", "mean of participants' own IT, not corrected (bit)"},
     {"deviation_own_bits", "its SD (bit)"},
     {"standard_deviation", "SD"},
     {"df1", "df"},

@@ -224,7 +224,7 @@ StudyReport studyReport(const ReportTrials& trials, const ScriptRunner& script) 
     }
     if (!trials.facts.plan.empty()) tellPlan(report, made);
     tellProvenance(report);
-    made.functions = report.functions;
+    made.functions = report.functions, made.slope = report.slope;
     made.files.insert(report.tables().begin(), report.tables().end());
     made.files["index.html"] = report.page.html();
     return made;
@@ -438,8 +438,9 @@ std::string measuresOf(const Protocol& protocol, int participants, const StudyRe
                          : "threshold by QUEST+: posterior mean",
         "QUEST+: unfinished, or within half a step of an end of the levels");
     add(hasFunctions,
-        "threshold and JND of a function: level half way up, and half of what lies between a quarter and "
-        "three quarters; maximum likelihood, " +
+        "threshold and " + report.slope +
+            " of a function: level half way up, and half of what lies between a quarter and "
+            "three quarters; maximum likelihood, " +
             report.functions,
         "functions: not rising, a constant fits as well (likelihood ratio, p > 0.05), width of 20 times the "
         "range of the levels, threshold outside it; of a step the JND");

@@ -13,13 +13,13 @@
 
 namespace physvib {
 struct StudyReport {
-    StudyFiles files;               ///< file names within the report's folder, and contents:
-                                    ///< index.html, tables, analysis.R of two people or more
-    std::vector<std::string> notes; ///< one line each on trials without a known analysis
-    std::vector<std::string> tests; ///< all tests that the script ran, in words
-    std::string functions{};        ///< which psychometric functions were fitted
-    std::string scriptFault;        ///< why the script did not end; empty: it did, or was not run
-    bool isSimulated = false;       ///< trials are of a simulated observer
+    StudyFiles files;                 ///< file names within the report's folder, and contents:
+                                      ///< index.html, tables, analysis.R of two people or more
+    std::vector<std::string> notes;   ///< one line each on trials without a known analysis
+    std::vector<std::string> tests;   ///< all tests that the script ran, in words
+    std::string functions{}, slope{}; ///< which psychometric functions were fitted, and what their jnd is
+    std::string scriptFault;          ///< why the script did not end; empty: it did, or was not run
+    bool isSimulated = false;         ///< trials are of a simulated observer
 };
 
 /// Equal trials give identical bytes. Without `script` the page says how tests are run. Message thread only.

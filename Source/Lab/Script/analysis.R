@@ -194,7 +194,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
 }) }
 # Where people lack levels, secondary to the analysis of those who have all, all people in one model (lme4): each effect by the likelihood ratio of the model with and without it. People differ in
 # the effects of several factors within them, too: with an intercept alone 16 of 100 studies without an effect would have one at 0.05.
-secondary <- "mixed model beside "
+secondary <- "mixed model beside "; is.secondary <- function(test) startsWith(as.character(test), secondary)
 mixed <- function(test, file, measure, within, between, where) {
   test <- paste0(secondary, test)
   factors <- c(within, between)
@@ -514,7 +514,7 @@ compare <- function(what, d, measure, kind = "scores", columns = c("group", "con
 # Several scales, or shares of several alternatives (`all`), ask one question each: Holm's correction over the tests of an effect that could be made. A
 # pair that is all of a factor, as of two levels by ranks, is its test. What is secondary has no part in it. Other pairs are of alternatives one family, all of a factor; of scales each its own.
 across <- function(tests, what, all, pairs = TRUE) {
-  at <- which(results$test %in% tests & !startsWith(results$test, secondary) & results$statistic %in% c("F", "chi-squared", "V", "W") & !is.na(results$p)); lines <- results[at, ]
+  at <- which(results$test %in% tests & !is.secondary(results$test) & results$statistic %in% c("F", "chi-squared", "V", "W") & !is.na(results$p)); lines <- results[at, ]
   name <- sub(" by [^ ]+(, [^ ]+)*$", "", sub("^(analysis of variance|(Friedman's|Kruskal and Wallis'|Friedman's and Kruskal and Wallis') test|pairs by ranks) of ", "", lines$test))
   p <- ifelse(lines$correction == "Greenhouse-Geisser", lines$p_corrected, lines$p)
   ranks <- lines$statistic %in% c("V", "W"); factor <- sub(": .*", "", lines$effect); pair <- ranks & paste(name, factor) %in% paste(name, factor)[!ranks]
@@ -604,7 +604,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
     if (!is.told) for (f in runs.of(d)) remark(what, "factors", length(unique(own$participant)), paste0(runs.words(d, f), "all trials together"))
     for (m in measures) compare(paste0(name(m), words, session), own, m, columns = columns)
   })
-  spoken <- c(spoken, threshold = half)
+  spoken <- c(spoken, threshold = half); if (half == "threshold") spoken[["jnd"]] <- "half interquartile range" # of forced choices a slope
   from("identification.csv", "percent_correct")
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
@@ -657,7 +657,11 @@ study <- function(study, scales = character(), points = character(), half = "thr
   if (file.exists("thresholds.csv")) parts.in(table.of("thresholds.csv"), function(own, session) {
     for (m in unique(own$method)) compare(paste0("threshold by ", m, session), own[own$method == m, ], "threshold", columns = c("group", "condition"))
   }) else from("psychometric.csv", c("threshold", "jnd"))
-  from("psychometric-stimuli.csv", c("threshold", "jnd"))
+  # Thresholds among other levels in each condition differ by what was played: only slopes are compared then.
+  played <- if (all(c("stimulus", "condition") %in% names(d))) tapply(d$stimulus, d$condition, function(s) paste(in.order(s), collapse = " "))
+  is.alike <- !file.exists("psychometric-stimuli.csv") || length(unique(played[names(played) %in% table.of("psychometric-stimuli.csv")$condition])) < 2
+  if (!is.alike) result(half, "condition", "", NA, NA, length(everybody), note = "other levels in each condition")
+  from("psychometric-stimuli.csv", c(if (is.alike) "threshold", "jnd"))
   if (!is.told && !any(file.exists(c("identification.csv", "psychometric.csv")))) each("", "correct", function(own, words) compare("share of right answers", own, "correct"))
   each("adjust", "value", function(own, words) if (is.told) compare(paste0("matched levels", words), own, "value"))
   each("estimate", "value", function(own, words) compare(paste0("magnitudes", words), own, "value", "magnitudes"))
@@ -666,7 +670,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
 }
 finish <- function(study) {
   everybody <<- character(); trials <<- NULL
-  lme4 <- if (any(startsWith(as.character(results$test), secondary)) && requireNamespace("lme4", quietly = TRUE)) paste(", lme4", packageVersion("lme4")) else ""
+  lme4 <- if (any(is.secondary(results$test)) && requireNamespace("lme4", quietly = TRUE)) paste(", lme4", packageVersion("lme4")) else ""
   writeLines(paste0("# ", study, ", ", R.version.string, lme4), "tests.csv")
   for (table in list(list(similarity, "similarity.csv"), list(places, "mds.csv"))) if (nrow(table[[1]]) > 0) {
     if (all(table[[1]]$session == "")) table[[1]]$session <- NULL

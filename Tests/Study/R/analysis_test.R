@@ -15,8 +15,8 @@ same <- function(words, ours, r) {
 }
 tested <- function() results[!(results$kind %in% "mean"), ]
 told <- function(run) { results <<- data.frame(); capture.output(run); tested() }
-line <- function(lines, effect) lines[lines$effect == effect & !startsWith(lines$test, secondary), ]
-mixed.line <- function(lines, effect) lines[lines$effect == effect & startsWith(lines$test, secondary), ]
+line <- function(lines, effect) lines[lines$effect == effect & !is.secondary(lines$test), ]
+mixed.line <- function(lines, effect) lines[lines$effect == effect & is.secondary(lines$test), ]
 rows <- function(d, name = "trials.csv") { writeLines("# of a test", name); write.table(d, name, append = TRUE, sep = ",", row.names = FALSE, na = "", quote = TRUE) }
 person <- function(n) sprintf("%02d", seq_len(n)) # text that would be numbers
 
