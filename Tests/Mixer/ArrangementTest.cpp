@@ -214,6 +214,7 @@ TEST(Arrangement, APressOnTheNameOfAPageOpensAndFoldsIt) {
 TEST(Arrangement, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
     Window w;
     const auto widthOf = [&](const char* title) { return find(w.view, title)->getWidth(); };
+    w.view.setPanels({false, true});
     w.view.setSize(1280, 720);
     const int narrow = widthOf("Strip A");
     auto* attach = find(w.view, "Attach an actuator");
@@ -351,6 +352,7 @@ TEST(Arrangement, AShowIsTheWorldAndTheButtonThatSilences) {
 TEST(Arrangement, APageWithoutRoomScrolls) {
     Window w;
     w.view.setSize(1280, 720);
+    w.view.setPanels({true, true});
     w.view.tabs().choose("Output");
     w.view.refresh(); // what it says takes room
     auto* page = w.view.tabs().find<OutputTab>();

@@ -63,7 +63,7 @@ TEST(WorldView, AnActuatorWithoutAnOutputLooksOtherwiseThanAMutedOneAndThanOneTh
         std::vector<bool> light; // shape, not colour
         for (int y = 0; y < picture.getHeight(); ++y)
             for (int x = 0; x < picture.getWidth(); ++x)
-                light.push_back(picture.getPixelAt(x, y).getBrightness() > 0.4f);
+                light.push_back(picture.getPixelAt(x, y).getBrightness() > 0.25f);
         return light;
     };
     const auto differ = [](const std::vector<bool>& a, const std::vector<bool>& b) {

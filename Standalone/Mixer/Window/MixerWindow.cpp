@@ -306,6 +306,7 @@ void MixerWindow::filesDropped(const juce::StringArray& files, int, int) {
 void MixerWindow::requestQuit() {
     if (view_->pauseStudy()) return;
     askThen([this] {
+        stopTimer(); // else it may keep another copy before the end
         files_.copies().forget();
         juce::JUCEApplicationBase::quit();
     });

@@ -200,7 +200,7 @@ void WorldPanel::placeInspector() {
         place.setX(std::max(left - apart, room.getX()));
     else {
         place = room.withHeight(body_.heightFor(room.getWidth()));
-        constexpr int badge = 18; // half of one stands above the field
+        constexpr int badge = 15; // as far one stands above the field
         const int top = juce::roundToInt(view_.placeOfShare({0.0, 1.0}).y) + view_.getY() - badge;
         if (place.getBottom() > top) place = withinField(wide, high);
     }
@@ -350,7 +350,7 @@ juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
 /// In one line or two, broken between the parts; empty if there is no room.
 juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     const auto font = sentence_.getFont();
-    const int room = sentence_.getWidth() - sentence_.getBorderSize().getLeftAndRight();
+    const int room = sentence_.getWidth() - sentence_.getBorderSize().getLeftAndRight() - 10;
     juce::StringArray lines{parts[0]};
     for (int k = 1; k < parts.size(); ++k) {
         const auto longer = lines.strings.getReference(lines.size() - 1) + dot + parts[k];
