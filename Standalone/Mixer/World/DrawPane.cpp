@@ -44,7 +44,6 @@ void DrawPane::use(DrawTool tool) {
     setMouseCursor(tool == DrawTool::choose ? juce::MouseCursor::NormalCursor
                                             : juce::MouseCursor::CrosshairCursor);
     if (tool != DrawTool::choose) chosen_.clear();
-    if (!isJoint(tool)) model_.messages().withdraw(triedLabel);
     if (!isPicked_) material_ = usualMaterial(drawing().drawn(), tool);
     if (onChange) onChange();
 }
@@ -157,6 +156,7 @@ bool DrawPane::isBeside(juce::Point<float> place) const {
 
 void DrawPane::mouseDown(const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu()) return onMenu ? onMenu(e.position) : void();
+    model_.messages().withdraw(triedLabel); // one tries again, or something else
     to_ = at(e);
     if (tool_ != DrawTool::choose) choose({});
     if (isBeside(e.position)) return;
