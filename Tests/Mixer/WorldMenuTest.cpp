@@ -273,7 +273,7 @@ TEST(Inspector, ASwatchGivesWhatIsChosenItsMaterialAndOneUndoTakesItBack) {
 
 TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
     Field f;
-    f.view.setSize(1280, 720);
+    f.view.setSize(1280, 800);
     f.pane.use(DrawTool::rain);
     f.pane.addAt(DrawTool::rain, f.share(0.5, 0.9));
     f.settle();
