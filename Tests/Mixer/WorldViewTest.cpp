@@ -73,7 +73,7 @@ TEST(WorldView, AnActuatorWithoutAnOutputLooksOtherwiseThanAMutedOneAndThanOneTh
     };
     const auto plays = badge({}, {}), muted = badge({false, true}, {}),
                without = badge({false, true}, {false, true});
-    EXPECT_GT(differ(muted, without), 30);
+    EXPECT_GT(differ(muted, without), 10); // broken edge, no strokes
     EXPECT_GT(differ(plays, without), 30);
     EXPECT_GT(differ(plays, muted), 30);
 }
