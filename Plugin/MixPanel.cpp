@@ -112,7 +112,10 @@ void MixStrip::equalise(bool on) {
 }
 
 void MixStrip::paint(juce::Graphics& g) {
-    StripParts::paint(g, static_cast<int>(index_), label_, isSilent_ || !isConnected_);
+    StripParts::paint(g, static_cast<int>(index_), label_,
+                      !isConnected_ ? "no output"
+                      : isSilent_   ? "muted"
+                                    : "");
 }
 
 void MixStrip::resized() {

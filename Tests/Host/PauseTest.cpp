@@ -136,6 +136,17 @@ TEST(Pause, OfADeviceThatWasGoneWhatWasPlannedIsDroppedAndAHeldToneGoesOn) {
     EXPECT_EQ(rig.session.pulse().dropped(), before + 20);
 }
 
+TEST(Pause, ADeviceJustChosenIsNotSaidToStandStill) {
+    Paused rig;
+    rig.play(0.3);
+    ASSERT_EQ(rig.output.open({"hands", {}, 0, 0, 1.0f}), "");
+    Paused::pause();
+    EXPECT_FALSE(rig.output.isPlaying());
+    const auto now = AudioOutput::Clock::now();
+    EXPECT_EQ(rig.output.maintain(now), "");
+    EXPECT_NE(rig.output.maintain(now + 1500ms).find("time stands still"), std::string::npos);
+}
+
 TEST(Pause, AFloodThatOverfillsTheQueueIsDroppedToo) {
     Paused rig;
     rig.play(0.3);

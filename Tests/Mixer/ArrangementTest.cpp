@@ -114,6 +114,46 @@ TEST(Arrangement, TheWorldHasTheRoom) {
     }
 }
 
+TEST(Arrangement, ASmallWindowFoldsTheStripsUntilOneAsksForThem) {
+    Window w;
+    w.view.setMode(Mode::engineer);
+    w.view.setSize(1280, 800);
+    EXPECT_TRUE(find(w.view, "Mixer")->isVisible());
+    w.view.setSize(1024, 700);
+    EXPECT_FALSE(find(w.view, "Mixer")->isVisible());
+    for (const char* title : {"Silence", "Master in a row", "Device state", "Strongest hit", "Scope"})
+        EXPECT_TRUE(find(w.view, title)->isVisible()) << title;
+    const auto& view = w.view.world().view();
+    const auto field = view.placeOfShare({1.0, 0.0}) - view.placeOfShare({0.0, 1.0});
+    EXPECT_GE(field.x * field.y / (1024.0f * 700.0f), 0.3f);
+    w.view.keyPressed(juce::KeyPress{juce::KeyPress::F3Key});
+    EXPECT_TRUE(find(w.view, "Mixer")->isVisible());
+    EXPECT_EQ(w.view.order(), "engineer - 01");
+    w.view.setSize(1280, 800);
+    w.view.setSize(1024, 700);
+    EXPECT_TRUE(find(w.view, "Mixer")->isVisible()) << "as it was asked for";
+}
+
+TEST(Arrangement, WhateverScrollsTheStripsAWholeOneStandsAtTheEdge) {
+    Window w;
+    w.view.setMode(Mode::engineer);
+    w.view.setPanels({false, true});
+    w.view.setSize(1280, 800);
+    w.attach(24);
+    auto* strips = find(w.view, "Mixer");
+    juce::Viewport* row = nullptr;
+    for (auto* child : strips->getChildren())
+        if (auto* port = dynamic_cast<juce::Viewport*>(child)) row = port;
+    ASSERT_NE(row, nullptr);
+    for (const int x : {13, 100, 211, 333}) {
+        row->setViewPosition(x, 0);
+        bool isWhole = false;
+        for (auto* strip : row->getViewedComponent()->getChildren())
+            isWhole = isWhole || strip->getX() == row->getViewPositionX();
+        EXPECT_TRUE(isWhole) << x;
+    }
+}
+
 TEST(Arrangement, ToPlayThereIsTheWorldAndWhatSilencesLimitsAndWarns) {
     Window w;
     w.view.setSize(1280, 800);
@@ -174,6 +214,7 @@ TEST(Arrangement, APressOnTheNameOfAPageOpensAndFoldsIt) {
 TEST(Arrangement, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
     Window w;
     const auto widthOf = [&](const char* title) { return find(w.view, title)->getWidth(); };
+    w.view.setPanels({false, true});
     w.view.setSize(1280, 720);
     const int narrow = widthOf("Strip A");
     auto* attach = find(w.view, "Attach an actuator");
@@ -311,6 +352,7 @@ TEST(Arrangement, AShowIsTheWorldAndTheButtonThatSilences) {
 TEST(Arrangement, APageWithoutRoomScrolls) {
     Window w;
     w.view.setSize(1280, 720);
+    w.view.setPanels({true, true});
     w.view.tabs().choose("Output");
     w.view.refresh(); // what it says takes room
     auto* page = w.view.tabs().find<OutputTab>();

@@ -324,6 +324,43 @@ TEST(MixerView, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {
     EXPECT_TRUE(model.trouble().isEmpty());
 }
 
+TEST(MixerView, WhatFailedGoesOnceSomebodyWasThereAndWhatStillHoldsStays) {
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+    view.faultMs = 100.0;
+    const auto move = [&] {
+        const auto source = juce::Desktop::getInstance().getMainMouseSource();
+        const auto now = juce::Time::getCurrentTime();
+        view.mouseMove(
+            {source, {5.0f, 5.0f}, {}, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, &view, &view, now, {}, now, 0, false});
+    };
+    const auto shown = [&] {
+        model.dispatchPendingMessages();
+        view.refresh();
+        runFor(0.3);
+        view.refresh();
+        return model.trouble();
+    };
+    model.report("a past fault");
+    EXPECT_EQ(shown(), "a past fault") << "nobody has seen it";
+    move();
+    EXPECT_EQ(shown(), "");
+    model.messages().show({"a joint holds a body", false, {"Pause", [] {}}, triedLabel});
+    EXPECT_EQ(shown(), "a joint holds a body") << "a mouse that moved before has not seen it";
+    move();
+    EXPECT_EQ(shown(), "");
+    model.messages().show({"the device is gone", false, {}, "device"});
+    EXPECT_EQ(shown(), "the device is gone");
+    move();
+    EXPECT_EQ(shown(), "the device is gone") << "it still is";
+    model.messages().withdraw("device");
+    model.change("None", [](Mix& mix) { mix.strips[2].output = -1; });
+    reportWithout(model, {2});
+    EXPECT_EQ(shown(), "C has no output: another actuator has it");
+    model.change("An output", [](Mix& mix) { mix.strips[2].output = 2; });
+    EXPECT_EQ(shown(), "") << "it has one";
+}
+
 TEST(MixerView, WhatWasLostIsToldUntilItHasBeenFineForSomeSeconds) {
     MixerModel model{onlyNoDevice(), noDevice};
     TopBar bar{model}; // a window's own would be told of other moments by its timer

@@ -134,6 +134,8 @@ TEST(Motor, SpeedAndTorqueAreChangedInTheInspectorAndUndone) {
          *torque = dynamic_cast<juce::Slider*>(find(f.panel, "Motor torque"));
     ASSERT_TRUE(speed != nullptr && torque != nullptr);
     EXPECT_NEAR(speed->getValue(), before.radiansPerSecond, 0.05);
+    EXPECT_TRUE(speed->getTextFromValue(speed->getValue()).endsWith(" rad/s"));
+    EXPECT_TRUE(torque->getTextFromValue(torque->getValue()).endsWith(" N m"));
     EXPECT_GT(speed->getHeight(), 14);
     speed->setValue(-8.0, juce::sendNotificationSync);
     torque->setValue(5'000.0, juce::sendNotificationSync);
@@ -271,7 +273,7 @@ TEST(Inspector, ASwatchGivesWhatIsChosenItsMaterialAndOneUndoTakesItBack) {
 
 TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
     Field f;
-    f.view.setSize(1280, 720);
+    f.view.setSize(1280, 800);
     f.pane.use(DrawTool::rain);
     f.pane.addAt(DrawTool::rain, f.share(0.5, 0.9));
     f.settle();
@@ -303,6 +305,30 @@ TEST(Inspector, CoversNoBadgeAndStaysWhereItIs) {
         const auto banner = find(f.view, "Trouble")->getBounds() - f.panel.getPosition();
         for (const char* title : {"Materials to draw with", "Chosen bodies"})
             EXPECT_FALSE(banner.intersects(find(f.panel, title)->getBounds())) << title;
+    }
+}
+
+TEST(Inspector, CoversNoCornerNoBodyAndNoTopWallBesideADrawer) {
+    Field f;
+    f.view.setMode(Mode::engineer);
+    f.view.setPanels({true, true});
+    f.view.setSize(1280, 800);
+    auto* inspector = find(f.panel, "Chosen bodies");
+    for (const auto& [x, y] : {std::pair{0.9, 0.9}, {0.1, 0.9}, {0.5, 0.5}, {0.9, 0.1}}) {
+        f.add(DrawTool::ball, x, y);
+        f.pane.use(DrawTool::choose);
+        const auto name = f.drawn().bodies.back().name;
+        f.pane.choose({name});
+        f.view.refresh();
+        const auto place = inspector->getBounds() - f.world.getPosition();
+        EXPECT_FALSE(place.toFloat().intersects(
+            juce::Rectangle<float>{40.0f, 40.0f}.withCentre(f.world.placeOfBody(name))))
+            << x << ", " << y;
+        for (int j = 0; j < f.model.mix().count(); ++j)
+            EXPECT_FALSE(place.toFloat().intersects(f.world.badgeAt(j))) << j << " at " << x << ", " << y;
+        EXPECT_GT(place.toFloat().getY(), f.world.placeOfShare({0.0, 1.0}).y + 4.0f)
+            << "the wall is in sight";
+        EXPECT_TRUE(f.panel.getLocalBounds().contains(inspector->getBounds()));
     }
 }
 

@@ -52,5 +52,31 @@ TEST(WorldView, AGlowIsOfWhatIsFelt) {
     EXPECT_FALSE(glows(false, {})) << "all is silent";
 }
 
+TEST(WorldView, AnActuatorWithoutAnOutputLooksOtherwiseThanAMutedOneAndThanOneThatPlays) {
+    const Mix mix = MixerModel::firstMix();
+    WorldView view;
+    view.setSize(600, 400);
+    view.show(*mix.scene);
+    const auto badge = [&](std::vector<bool> muted, std::vector<bool> without) {
+        view.show(mix.layout, mix.panner(), std::move(muted), std::move(without));
+        const auto picture = view.createComponentSnapshot(view.badgeAt(1).expanded(2.0f).toNearestInt());
+        std::vector<float> light; // shape, not colour
+        for (int y = 0; y < picture.getHeight(); ++y)
+            for (int x = 0; x < picture.getWidth(); ++x)
+                light.push_back(picture.getPixelAt(x, y).getBrightness());
+        return light;
+    };
+    const auto differ = [](const std::vector<float>& a, const std::vector<float>& b) {
+        int count = 0;
+        for (std::size_t k = 0; k < a.size(); ++k) count += std::abs(a[k] - b[k]) > 0.1f ? 1 : 0;
+        return count;
+    };
+    const auto plays = badge({}, {}), muted = badge({false, true}, {}),
+               without = badge({false, true}, {false, true});
+    EXPECT_GT(differ(muted, without), 10); // broken edge, no strokes
+    EXPECT_GT(differ(plays, without), 30);
+    EXPECT_GT(differ(plays, muted), 30);
+}
+
 } // namespace
 } // namespace physvib

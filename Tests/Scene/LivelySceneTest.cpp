@@ -86,6 +86,19 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SceneLevel, testing::Values("fruit-basket", "dr
                              return name;
                          });
 
+TEST(SceneGuard, IsNotNeededByDrawing) {
+    const Scene& scene = *findBuiltInScene("drawing");
+    EnchanterLayout layout;
+    layoutPreset("phone4", layout);
+    const PhantomPanner panner{layout, PanningLaw::linear, 1.0, scene.fieldWidthMetres,
+                               scene.fieldHeightMetres};
+    for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+        const auto rendered =
+            test::renderEvents(eventsOf(scene, 21, 100, seed), {8000, 4, panner}, 21 * 8000, {4096});
+        EXPECT_EQ(rendered.status.guarded, 0u) << "cloth that is rubbed fast held a coil";
+    }
+}
+
 class TenMinutesOfScene : public testing::TestWithParam<Run> {};
 
 TEST_P(TenMinutesOfScene, LoseNothingForGood) {

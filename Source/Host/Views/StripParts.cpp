@@ -208,14 +208,15 @@ void StripParts::place(juce::Rectangle<int> area, int left, bool areBeside) {
     fader_.setBounds(area.withX(left + 47).withWidth(32).expanded(0, 8));
 }
 
-void StripParts::paint(juce::Graphics& g, int enchanter, const juce::String& name, bool isQuiet) {
+void StripParts::paint(juce::Graphics& g, int enchanter, const juce::String& name, const juce::String& why) {
+    const bool isQuiet = why.isNotEmpty();
     auto row = getLocalBounds();
     g.setColour(enchanterColour(*this, enchanter).withMultipliedAlpha(isQuiet ? 0.35f : 1.0f));
     g.fillRoundedRectangle(row.removeFromTop(4).toFloat(), 2.0f);
     row = row.withTrimmedTop(4).removeFromTop(20);
     const auto bold = text::font(text::medium, juce::Font::bold), plain = text::font(text::small);
     const double gainDb = fader_.getValue();
-    const auto gain = gainDb == 0.0 ? juce::String{} : fader_.textFromValueFunction(gainDb);
+    const auto gain = isQuiet ? why : gainDb == 0.0 ? juce::String{} : fader_.textFromValueFunction(gainDb);
     constexpr int between = 5;
     const int gainWidth = text::pixels(plain, gain) + between, nameWidth = text::pixels(bold, name);
     if (gain.isNotEmpty() && nameWidth + gainWidth <= row.getWidth()) {

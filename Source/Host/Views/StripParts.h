@@ -81,9 +81,9 @@ protected:
     /// Figures and, above them, meter and fader, from `left` on; buttons between, or in a column beside them,
     /// which leaves the fader a longer way.
     void place(juce::Rectangle<int> area, int left, bool areBeside = false);
-    /// The fader's gain stands beside the name, unless it is 0 dB or the name needs the room; the meter's
-    /// scale is right of the meter.
-    void paint(juce::Graphics& g, int enchanter, const juce::String& name, bool isQuiet);
+    /// The fader's gain, or `why` it plays nothing, stands beside the name, unless it is 0 dB or the name
+    /// needs the room; the meter's scale is right of the meter.
+    void paint(juce::Graphics& g, int enchanter, const juce::String& name, const juce::String& why);
 
     PeakMeter meter_;
     Fader fader_;

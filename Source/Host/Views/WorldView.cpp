@@ -75,10 +75,12 @@ void WorldView::show(const Scene& scene) {
     repaint();
 }
 
-void WorldView::show(const LayoutDescription& layout, const PhantomPanner& panner, std::vector<bool> muted) {
+void WorldView::show(const LayoutDescription& layout, const PhantomPanner& panner, std::vector<bool> muted,
+                     std::vector<bool> without) {
     layout_ = layout;
     panner_ = panner;
     muted_ = std::move(muted);
+    without_ = std::move(without);
     gains_ = {};
     badges_.clear();
     repaint();
@@ -458,6 +460,17 @@ void WorldView::drawHalos(juce::Graphics& g) const {
     }
 }
 
+namespace {
+/// The edge of a badge that is connected to nothing.
+void drawDashes(juce::Graphics& g, juce::Rectangle<float> badge) {
+    constexpr float dashes[]{4.0f, 4.0f};
+    juce::Path edge, dashed;
+    edge.addRoundedRectangle(badge, 7.0f);
+    juce::PathStrokeType{2.0f}.createDashedStroke(dashed, edge, dashes, 2);
+    g.fillPath(dashed);
+}
+} // namespace
+
 void WorldView::drawEnchanters(juce::Graphics& g) const {
     for (int j = 0; j < layout_.geometry.count; ++j) // where those are that had to move
         if (const juce::Line<float> way{placeOfEnchanter(j), badgeAt(j).getCentre()};
@@ -476,11 +489,16 @@ void WorldView::drawEnchanters(juce::Graphics& g) const {
         g.setColour(shade(*this, Shade::well));
         g.fillRoundedRectangle(badge, 7.0f);
         g.setColour(colour);
-        g.drawRoundedRectangle(badge, 7.0f, 2.0f);
-        if (j == selected_) g.drawRoundedRectangle(badge.expanded(4.0f), 9.0f, 1.5f);
+        if (j == selected_)
+            g.fillRoundedRectangle(badge, 7.0f);
+        else if (isWithoutOutput(j))
+            drawDashes(g, badge);
+        else
+            g.drawRoundedRectangle(badge, 7.0f, 2.0f);
+        if (j == selected_) g.setColour(shade(*this, Shade::well));
         g.setFont(badgeFont());
         g.drawText(labelOf(j), badge.reduced(3.0f, 0.0f), juce::Justification::centred, true);
-        if (!isMuted(j)) continue;
+        if (!isMuted(j) || isWithoutOutput(j)) continue;
         for (const auto& [corner, other] : {std::pair{badge.getBottomLeft(), badge.getTopRight()},
                                             {badge.getTopRight(), badge.getBottomLeft()}})
             g.drawLine({corner, corner + (other - corner) * 0.3f}, 2.0f); // struck out, its letter is not

@@ -45,8 +45,10 @@ public:
 
     /// Shows another scene, or the same with more bodies. M.
     void show(const Scene& scene);
-    /// Sets the actuators, their panning law and which are muted. M.
-    void show(const LayoutDescription& layout, const PhantomPanner& panner, std::vector<bool> muted = {});
+    /// Sets the actuators, their panning law and which are muted; `without`: which of these lack an output.
+    /// M.
+    void show(const LayoutDescription& layout, const PhantomPanner& panner, std::vector<bool> muted = {},
+              std::vector<bool> without = {});
     /// M, several times a second; repaints if something has changed.
     void update(WorldMoment moment);
     /// Draws bodies with the textures of their materials where there are any; otherwise one colour per
@@ -203,6 +205,10 @@ private:
         return static_cast<std::size_t>(enchanter) < muted_.size() &&
                muted_[static_cast<std::size_t>(enchanter)];
     }
+    bool isWithoutOutput(int enchanter) const {
+        return static_cast<std::size_t>(enchanter) < without_.size() &&
+               without_[static_cast<std::size_t>(enchanter)];
+    }
     void drawTraces(juce::Graphics& g, const Map& at) const;
     void drawRays(juce::Graphics& g, const Map& at) const;
     void drawHalos(juce::Graphics& g) const;
@@ -223,8 +229,8 @@ private:
     std::size_t scripted_ = 0; // number of bodies from scriptedCast(), which come first
     LayoutDescription layout_;
     PhantomPanner panner_;
-    std::vector<bool> muted_;    // per actuator
-    std::deque<Snapshot> ahead_; // poses not felt yet, except the first
+    std::vector<bool> muted_, without_; // per actuator
+    std::deque<Snapshot> ahead_;        // poses not felt yet, except the first
     std::deque<Hit> hits_;
     std::deque<Trace> traces_;
     std::array<float, limits::maxEnchanters> peaks_{};

@@ -19,6 +19,7 @@ constexpr double fadeInSeconds = 0.005;
 constexpr DeviceSession::Limit opening = 10s;     // time limit for a device that a user opens
 constexpr DeviceSession::Limit reopening = 500ms; // a driver that takes longer is tried again a second later
 constexpr DeviceSession::Limit ending = 400ms;    // a JACK client aborted here keeps its server busy
+constexpr auto firstBlock = 1s;                   // a device just chosen has asked for none yet
 constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // limits of three blocks' time
 constexpr int mostOutputs = 65'536;                                      // of a device
 
@@ -47,6 +48,7 @@ std::string AudioOutput::open(const AudioOutputSettings& settings) {
     settings_ = settings;
     setLevel(settings.level);
     heard_.setLevels(settings.listening);
+    openedAt_ = Clock::now();
     return openDevice(opening);
 }
 
@@ -163,7 +165,7 @@ std::string AudioOutput::maintain(Clock::time_point now) {
                        : error;
         watch_.lose(now);
     }
-    const bool isStill = watch_.losses() == before && !isPlaying();
+    const bool isStill = watch_.losses() == before && now - openedAt_ > firstBlock && !isPlaying();
     std::string changed = follow();
     if (settings_.device.starts_with(std::string{noDeviceType} + ":"))
         return changed; // nothing is felt there

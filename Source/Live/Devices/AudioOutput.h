@@ -127,6 +127,7 @@ private:
     // M
     DeviceWatch watch_;
     bool wasConnected_ = false; // since the device was opened
+    Clock::time_point openedAt_;
 
     // R, set while the device is stopped
     InputTap* inputTap_ = nullptr;

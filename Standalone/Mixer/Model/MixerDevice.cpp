@@ -237,7 +237,7 @@ void reportWithout(MixerModel& model, const std::vector<std::size_t>& strips) {
                           false,
                           {isOne ? "Give a free output" : "Give free outputs",
                            [&model, strips] { giveFreeOutputs(model, strips); }},
-                          "outputs"});
+                          noOutputLabel});
 }
 
 void MixerExposure::use(const LayoutDescription& layout) {

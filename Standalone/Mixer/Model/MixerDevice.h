@@ -142,7 +142,7 @@ void leaveHeadphones(MixerModel& model, const DeviceChoice& ears);
 
 /// Reports strips for which headphones have no output. Message thread.
 void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips);
-constexpr const char* noEarLabel = "ears"; ///< of that message
+constexpr const char *noEarLabel = "ears", *noOutputLabel = "outputs"; ///< of that message, and the next
 
 /// Reports strips that lost their output to another one, with a button that gives them free outputs. Message
 /// thread only.

@@ -22,6 +22,7 @@ void MixerMessages::put(MixerMessage message) {
     const bool isSame = message.words == shown_.words && message.isNews == shown_.isNews &&
                         message.act.name == shown_.act.name;
     shown_ = std::move(message);
+    ++told_;
     if (!isSame) onChange_();
 }
 

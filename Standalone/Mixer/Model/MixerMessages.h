@@ -37,6 +37,7 @@ struct MixerAct {
 };
 
 constexpr const char* savedLabel = "saved"; ///< of the news that a file was written, which do not last
+constexpr const char* triedLabel = "tried"; ///< of what was tried in vain, with a button: it does not last
 
 struct MixerMessage {
     juce::String words;  ///< one line; empty: none
@@ -45,7 +46,9 @@ struct MixerMessage {
     juce::String label{}; ///< what it is about: there is one message of a label; empty: nothing that lasts
 
     /// It stays until it is answered, dismissed or withdrawn: an error that still stands, an offer.
-    bool lasts() const { return act.run ? label != savedLabel : !isNews && label.isNotEmpty(); }
+    bool lasts() const {
+        return act.run ? label != savedLabel && label != triedLabel : !isNews && label.isNotEmpty();
+    }
 };
 
 /// The line above the world: one message at a time, each with a button for what can be done about it. They
@@ -57,6 +60,7 @@ public:
         : onChange_{std::move(onChange)} {}
 
     const MixerMessage& shown() const noexcept { return shown_; }
+    int told() const noexcept { return told_; } ///< how often one was shown, or told again
 
     /// Replaces the message, which waits if it lasts. Without words the next one that waits is shown.
     void show(MixerMessage message);
@@ -72,6 +76,7 @@ private:
 
     std::function<void()> onChange_;
     MixerMessage shown_;
+    int told_ = 0;
     std::deque<MixerMessage> waiting_;
 };
 

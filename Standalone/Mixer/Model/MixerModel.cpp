@@ -166,7 +166,7 @@ MixerModel::MixerModel(AudioDrivers drivers, const DeviceChoice& device, Mix mix
     setSilent(start.isSilent); // before anything can be felt
     session().world().setSlowness(start.isPaused ? 0 : 1);
     open(device);
-    if (!fault.empty()) report(utf8(fault));
+    if (!fault.empty()) messages_.show({utf8(fault), false, {}, "sinks"});
     reportWithout(*this, without);
     lastSent_->follow(session(), mix_);
     lastSent_->send(session(), mix_);
@@ -218,6 +218,8 @@ bool MixerModel::apply(const Mix& next) {
             report(utf8(error));
             isRefused = isSame(mix_, before);
         }
+    if (std::ranges::none_of(mix_.strips, [](const Strip& strip) { return strip.output < 0; }))
+        for (const char* label : {noOutputLabel, noEarLabel}) messages_.withdraw(label);
     output().setLevel(masterGain(mix_));
     if (isRefused) --edits_;
     sendChangeMessage();

@@ -110,7 +110,9 @@ void StripView::mouseDown(const juce::MouseEvent& e) {
 void StripView::paint(juce::Graphics& g) {
     if (!isThere()) return;
     StripParts::paint(g, static_cast<int>(index_), utf8(model_.mix().layout.enchanters[index_].label),
-                      model_.mix().isSilent(static_cast<int>(index_)));
+                      !model_.device().isPlayed(index_)                 ? "no output"
+                      : model_.mix().isSilent(static_cast<int>(index_)) ? "muted"
+                                                                        : "");
 }
 
 void StripView::setDropping(bool isDropping) {

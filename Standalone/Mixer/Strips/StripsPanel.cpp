@@ -87,6 +87,13 @@ void StripsPanel::focusOfChildComponentChanged(FocusChangeType) {
         viewport_.setViewPosition(std::max(0, at.getCentreX() - viewport_.getViewWidth() / 2), 0);
 }
 
+// Whole strips stand at the left edge, whatever moved them; at the end, whole ones at the right.
+void StripsPanel::Row::visibleAreaChanged(const juce::Rectangle<int>& area) {
+    const int most = getViewedComponent() != nullptr ? getViewedComponent()->getWidth() - area.getWidth() : 0;
+    const int whole = step > 0 ? (area.getX() + step / 2) / step * step : area.getX();
+    if (whole != area.getX() && area.getX() < most) setViewPosition(std::min(whole, most), 0);
+}
+
 void StripsPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
 
 int StripsPanel::fixedWidth() const {
@@ -116,6 +123,8 @@ void StripsPanel::resized() {
     if (needed > area.getWidth()) // whole ones in sight
         viewport_.setSize(area.getWidth() / (width + between) * (width + between), area.getHeight());
     row_.setSize(std::max(needed, area.getWidth()), area.getHeight() - (needed > area.getWidth() ? 10 : 0));
+    viewport_.step = width + between;
+    viewport_.setSingleStepSizes(width + between, 0);
     auto places = row_.getLocalBounds();
     for (auto& strip : strips_)
         strip->setBounds(places.removeFromLeft(width)), places.removeFromLeft(between);

@@ -62,7 +62,10 @@ private:
     void makeGroups();
 
     MixerModel& model_;
-    juce::Viewport viewport_;
+    struct Row final : juce::Viewport {
+        void visibleAreaChanged(const juce::Rectangle<int>& area) override;
+        int step = 0; ///< of a strip and what is between two
+    } viewport_;
     juce::Component row_;
     std::vector<std::unique_ptr<StripView>> strips_;
     std::vector<std::unique_ptr<GroupView>> groups_;

@@ -196,7 +196,9 @@ void StudyScreen::showTrial() {
     pause_.setVisible(hasHands());
     showParts();
     prepareControls(*this);
-    answers_.setHasFocusOutline(false); // a frame around the whole pane would not show a target
+    for (juce::Component* whole :
+         {static_cast<juce::Component*>(this), static_cast<juce::Component*>(&answers_)})
+        whole->setHasFocusOutline(false); // a frame around all of it would not show a target
     resized();
     refresh();
     repaint();

@@ -344,7 +344,8 @@ public:
         g.setColour(shade(*this, isChosen || isOver ? Shade::text : Shade::muted));
         g.setFont(text::font(text::medium, isChosen ? juce::Font::bold : juce::Font::plain));
         g.drawText(getName(), area.withTrimmedBottom(isOpen ? 4 : 0), juce::Justification::centred, false);
-        g.setColour(isChosen ? shade(*this, Shade::accent) : juce::Colours::transparentBlack);
+        g.setColour(isChosen && !hasKeyboardFocus(false) ? shade(*this, Shade::accent)
+                                                         : juce::Colours::transparentBlack);
         g.fillRect(area.removeFromBottom(2));
     }
     bool isOpen = true, isUpright = false;

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <juce_core/juce_core.h>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -138,9 +137,10 @@ juce::Array<juce::File> MixerFiles::ownScenes() const {
     return files;
 }
 
-std::string MixerFiles::keep(MixerModel& model, bool isChanged) {
+std::optional<std::string> MixerFiles::keep(MixerModel& model, bool isChanged) {
+    if (!isChanged) return std::string{};
     const double now = juce::Time::getMillisecondCounterHiRes(), passed = now - keptAtMs_;
-    if (!isChanged || passed < (model.edits() != keptEdits_ ? keepMs : longestKeepMs)) return {};
+    if (passed < (model.edits() != keptEdits_ ? keepMs : longestKeepMs)) return {};
     return keepNow(model);
 }
 

@@ -7,6 +7,7 @@
 #include "Mixer/Model/MixerModel.h"
 #include <filesystem>
 #include <juce_gui_extra/juce_gui_extra.h>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -85,7 +86,7 @@ public:
     RecoveryCopies& copies() noexcept { return copies_; }
     /// Writes this run's recovery copy if there are changes, at a limited rate. Empty, or why it cannot be
     /// written.
-    std::string keep(MixerModel& model, bool isChanged);
+    std::optional<std::string> keep(MixerModel& model, bool isChanged);
     std::string keepNow(MixerModel& model);
 
 private:

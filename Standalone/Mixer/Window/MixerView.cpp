@@ -158,7 +158,6 @@ void MixerView::mixChanged() {
         hintOnLevels(model_, why);
     }
     const bool isTrouble = model_.trouble().isNotEmpty();
-    if (trouble_.getTooltip() != model_.trouble()) newsAtMs_ = nowMs();
     trouble_.setTooltip(model_.trouble());
     trouble_.setColour(juce::Label::textColourId, shade(*this, Shade::text));
     const auto tint = shade(*this, model_.isNews() ? Shade::accent : Shade::limit);
@@ -207,10 +206,19 @@ void MixerView::setPanels(const Panels& panels) {
     showPanels();
 }
 
+// Not the strips where they would leave the field too little.
+Panels MixerView::panels() const {
+    constexpr int least = 760;
+    const auto& chosen = panels_[static_cast<std::size_t>(mode_)];
+    return chosen.value_or(Panels{false, mode_ == Mode::engineer && getHeight() >= least});
+}
+
 juce::String MixerView::order() const {
     juce::String words{mode_ == Mode::play ? "play" : "engineer"};
-    for (const Panels& panels : panels_)
-        words << " " << (panels.hasDrawer ? 1 : 0) << (panels.hasLower ? 1 : 0);
+    for (const auto& panels : panels_)
+        words << (!panels
+                      ? juce::String{" -"}
+                      : juce::String{" "} + (panels->hasDrawer ? "1" : "0") + (panels->hasLower ? "1" : "0"));
     return words;
 }
 
@@ -218,13 +226,13 @@ void MixerView::setOrder(const juce::String& order) {
     const auto words = juce::StringArray::fromTokens(order, " ", {});
     for (int k = 0; k < 2; ++k)
         if (words[k + 1].length() == 2)
-            panels_[static_cast<std::size_t>(k)] = {words[k + 1][0] == '1', words[k + 1][1] == '1'};
+            panels_[static_cast<std::size_t>(k)] = Panels{words[k + 1][0] == '1', words[k + 1][1] == '1'};
     setMode(words[0] == "engineer" ? Mode::engineer : Mode::play);
 }
 
 void MixerView::showPanels() {
     using Fold = TabPanel::Fold;
-    const auto [hasDrawer, hasLower] = panels();
+    const auto [hasDrawer, hasLower] = shownPanels_ = panels();
     const bool isEngineer = mode_ == Mode::engineer;
     tabs_.setFold(hasDrawer ? Fold::none : Fold::column);
     scope_.setFold(hasLower ? Fold::none : Fold::row);
@@ -275,11 +283,18 @@ void MixerView::refresh() {
     tabs_.refresh(latest_); // folded or not: a study goes on there, takes and lanes are followed
     scope_.refresh(latest_);
     strips_.refresh(latest_);
-    constexpr double newsMs = 10e3;                                 // it lies over the materials to draw with
-    const bool isShown = trouble_.getTooltip() == model_.trouble(); // the change may not have come yet
-    if (isShown && model_.isNews() && !model_.messages().shown().lasts() && nowMs() - newsAtMs_ > newsMs)
-        model_.report({});
+    if (std::exchange(told_, model_.messages().told()) != told_) newsAtMs_ = nowMs(), seenAtMs_ = 0.0;
+    constexpr double newsMs = 10e3; // it lies over the materials to draw with
+    const bool isOver =
+        model_.isNews() ? nowMs() - newsAtMs_ > newsMs : seenAtMs_ > 0.0 && nowMs() - seenAtMs_ > faultMs;
+    if (isOver && !model_.messages().shown().lasts()) model_.report({});
     keepPace();
+}
+
+// What stands on a screen alone nobody may have read: a person who moves the mouse or presses a key is there.
+void MixerView::attend() {
+    if (seenAtMs_ == 0.0 && trouble_.isVisible() && openCard() == nullptr && screen_ == nullptr)
+        seenAtMs_ = nowMs();
 }
 
 // Motion needs more pictures than numbers and meters do.
@@ -392,6 +407,7 @@ bool MixerView::pauseStudy() {
 
 bool MixerView::keyPressed(const juce::KeyPress& key) {
     using juce::KeyPress;
+    attend();
     if (auto* const open = openCard()) { // regardless of the focus, which Tab moves within it
         if (key.isKeyCode(KeyPress::tabKey)) return false;
         if (!open->keyPressed(key) && key == KeyPress::escapeKey) model_.setSilent(true);
@@ -424,6 +440,7 @@ void MixerView::paintOverChildren(juce::Graphics& g) {
 }
 
 void MixerView::resized() {
+    if (panels() != shownPanels_) return showPanels(); // which comes back here
     auto area = getLocalBounds();
     if (isShow_) {
         world_.setBounds(area);

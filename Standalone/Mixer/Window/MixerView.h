@@ -11,6 +11,7 @@
 #include "Mixer/World/WorldPanel.h"
 #include <array>
 #include <juce_gui_basics/juce_gui_basics.h>
+#include <optional>
 
 namespace physvib {
 
@@ -66,6 +67,8 @@ public:
     static constexpr int framesPerSecond = 60, restFramesPerSecond = 5, minWidth = 1000, minHeight = 640;
     static constexpr int worldsPerPanel = 3; ///< pictures of the world for each of the other panels
 
+    double faultMs = 20e3; ///< how long what failed is told, once somebody is there
+
     explicit MixerView(MixerModel& model);
     ~MixerView() override;
 
@@ -79,7 +82,7 @@ public:
     /// Each mode keeps its own panels. Not while a study has the screen.
     void setMode(Mode mode);
     Mode mode() const noexcept { return mode_; }
-    const Panels& panels() const noexcept { return panels_[static_cast<std::size_t>(mode_)]; }
+    Panels panels() const;                ///< as they were set; before, by the window's height
     void setPanels(const Panels& panels); ///< of the present mode
     juce::String order() const;           ///< mode and panels, for the settings
     void setOrder(const juce::String& order);
@@ -116,7 +119,8 @@ public:
     bool shouldDropFilesWhenDraggedExternally(const juce::DragAndDropTarget::SourceDetails& details,
                                               juce::StringArray& files, bool& canMoveFiles) override;
 
-    void mouseDown(const juce::MouseEvent& e) override { releaseAtRightClick(e), drawCurtain(); }
+    void mouseMove(const juce::MouseEvent&) override { attend(); }
+    void mouseDown(const juce::MouseEvent& e) override { releaseAtRightClick(e), drawCurtain(), attend(); }
     void mouseUp(const juce::MouseEvent&) override { drawCurtain(); }
     void mouseDrag(const juce::MouseEvent& e) override { releaseAtRightClick(e); }
     bool keyPressed(const juce::KeyPress& key) override;
@@ -128,6 +132,7 @@ private:
     void changeListenerCallback(juce::ChangeBroadcaster*) override { mixChanged(); }
     void timerCallback() override;
     void look();
+    void attend();
     void moveDivider(double Dividers::*which, int pixels, int whole, int now);
     static void releaseAtRightClick(const juce::MouseEvent& e);
     bool onlyCloses();
@@ -148,7 +153,8 @@ private:
     StripsPanel strips_;
     Dividers dividers_;
     Mode mode_ = Mode::engineer;
-    std::array<Panels, 2> panels_{{{}, {false, true}}}; // of each mode
+    std::array<std::optional<Panels>, 2> panels_; // of each mode; none: automatic
+    Panels shownPanels_;
     Divider side_{"Divider of world and tabs", true}, lower_{"Divider of upper and lower panels", false},
         between_{"Divider of scope and strips", true};
     juce::Label trouble_; // over the world
@@ -164,8 +170,8 @@ private:
     juce::String whySilent_;                      // as shown
     bool isDropShown_ = false, isShow_ = false;
     MixerMoment latest_;
-    int restedLooks_ = 0, looks_ = 0;
-    double newsAtMs_ = 0.0;
+    int restedLooks_ = 0, looks_ = 0, told_ = 0;
+    double newsAtMs_ = 0.0, seenAtMs_ = 0.0; // when the message came, and when somebody was there; 0: not yet
     std::array<float, limits::maxEnchanters> peaks_{}; // since the strips were updated
     Tips tooltips_{*this};
     EmergencyStop stop_{*this, [this] { model_.setSilent(true); }, [this] { return onlyCloses(); }};

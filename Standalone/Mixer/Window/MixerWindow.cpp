@@ -82,7 +82,8 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     if (isFirst && !endedBadly) later(*this, [](MixerWindow& window) { window.showFirstStart(); });
     reportInstead();
     offerRecovery();
-    if (!files_.settingsFault().empty()) model_->messages().add({utf8(files_.settingsFault())});
+    if (!files_.settingsFault().empty())
+        model_->messages().add({utf8(files_.settingsFault()), false, {}, "settings"});
     startTimer(500);
 }
 
@@ -242,7 +243,10 @@ void MixerWindow::timerCallback() {
     files_.setLimits(limits());
     files_.setExposureToday(model_->exposure().squareGSeconds());
     offerMonitor();
-    model_->reportFault(files_.keep(*model_, isChanged()));
+    if (const auto fault = files_.keep(*model_, isChanged()); fault && fault->empty())
+        model_->messages().withdraw("kept");
+    else if (fault)
+        model_->messages().show({utf8(*fault), false, {}, "kept"});
 }
 
 void MixerWindow::keepOrder() {
@@ -302,6 +306,7 @@ void MixerWindow::filesDropped(const juce::StringArray& files, int, int) {
 void MixerWindow::requestQuit() {
     if (view_->pauseStudy()) return;
     askThen([this] {
+        stopTimer(); // else it may keep another copy before the end
         files_.copies().forget();
         juce::JUCEApplicationBase::quit();
     });
@@ -629,6 +634,7 @@ void MixerWindow::useAskedLevels() {
     });
     asked_.reset();
     lost_.clear();
+    model_->messages().withdraw("levels");
 }
 
 // A file on the command line is not an edit, so there is nothing to save yet.
@@ -941,7 +947,7 @@ void MixerWindow::recover(const std::filesystem::path& copy) {
     });
 }
 
-void MixerWindow::saveScene(bool isNow) {
+void MixerWindow::saveScene(bool isNow, const juce::File& in) {
     files_.scenesFolder().createDirectory();
     chooseFile(
         "Save as scene", ".json", true,
@@ -949,7 +955,7 @@ void MixerWindow::saveScene(bool isNow) {
             if (model_->reportFault(saveSceneTo(file, isNow))) return;
             announceSaved("Saved the scene", file);
         },
-        "scene", files_.scenesFolder());
+        "scene", in != juce::File{} ? in : files_.scenesFolder());
 }
 
 std::string MixerWindow::saveSceneTo(const juce::File& file, bool isNow) {
@@ -998,7 +1004,7 @@ void MixerWindow::share(bool isElsewhere) {
             "PhysVib.\nThat page is not built here: after Standalone/Web/build-web.sh, Share serves it "
             "to phones, with a code.",
             {{"Save movie" + dots(), then([this] { saveMovie(); })},
-             {"Save as scene" + dots(), then([this] { saveScene(false); })},
+             {"Save as scene" + dots(), then([this] { saveScene(false, folderOfDocuments()); })},
              {"Other page" + dots(), then([this] { share(true); })}});
     }
     const auto at = [behind = utf8(link.value)](const juce::String& address) {
@@ -1040,11 +1046,11 @@ void MixerWindow::share(bool isElsewhere) {
          }},
         {openWords, [whole] { openLink(whole()); }}};
     if (served_.isEmpty()) // the first is at the right
-        answers.insert(page.isEmpty() ? answers.begin() : answers.end(), {instead, [this, canServe] {
-                                                                              view_->setCard(nullptr);
-                                                                              canServe ? serve()
-                                                                                       : saveScene(false);
-                                                                          }});
+        answers.insert(page.isEmpty() ? answers.begin() : answers.end(),
+                       {instead, [this, canServe] {
+                            view_->setCard(nullptr);
+                            canServe ? serve() : saveScene(false, folderOfDocuments());
+                        }});
     ask("Share the world", {}, std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
     show(*view_->question(), page);
 }

@@ -41,7 +41,8 @@ public:
     void exportLayout();
     /// Shows a link to the web page; `isElsewhere`: to one whose address is typed.
     void share(bool isElsewhere = false);
-    void saveScene(bool isNow); ///< asks for a file; bodies as drawn, or at their current places
+    /// Asks for a file; bodies as drawn, or at their current places. `in`: none, the folder of own scenes.
+    void saveScene(bool isNow, const juce::File& in = {});
     std::string saveSceneTo(const juce::File& file, bool isNow); ///< empty, or an error
     void recordScript();               ///< records user input in the world: starts or ends
     void newScene(SceneGround ground); ///< with the field and the materials of the first start

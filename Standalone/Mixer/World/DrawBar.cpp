@@ -124,8 +124,8 @@ public:
                         .brighter(isOver ? 0.1f : 0.0f)
                         .withAlpha(0.95f));
         g.fillRoundedRectangle(getLocalBounds().toFloat(), 6.0f);
-        g.setColour(shade(*this, Shade::accent));
-        if (getToggleState()) g.drawRoundedRectangle(getLocalBounds().toFloat().reduced(0.75f), 6.0f, 1.5f);
+        g.setColour(shade(*this, Shade::accent)); // as a tab's: a frame is the keyboard's
+        if (getToggleState()) g.fillRect(getLocalBounds().reduced(6, 0).removeFromBottom(2));
         g.setColour(colour_);
         const float middle = 0.5f * static_cast<float>(getHeight());
         const float left = std::min(7.0f, 0.5f * static_cast<float>(getWidth()) - 9.0f);
@@ -233,10 +233,12 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page
     describe(speed_, "Motor speed",
              "Speed of the motor, in rad/s, counter-clockwise; 0 with a torque: a brake");
     speed_.setRange(-fastest, fastest, 0.1);
+    speed_.setTextValueSuffix(" rad/s");
     speed_.setDoubleClickReturnValue(true, 0.0);
     describe(torque_, "Motor torque", "Most that the motor turns with, in N m; 0: no motor");
     torque_.setRange(0.0, 1e6, 1.0);
     torque_.setSkewFactorFromMidPoint(1e3);
+    torque_.setTextValueSuffix(" N m");
     for (auto* slider : {&speed_, &torque_})
         onSlide(*slider, [this](bool continuesEdit) {
             edit("Motor",
@@ -248,11 +250,13 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page
              "How fast the spring lets its bodies swing, in Hz; they return to their start");
     spring_.setRange(0.1, 20.0, 0.1);
     spring_.setSkewFactorFromMidPoint(2.0);
+    spring_.setTextValueSuffix(" Hz");
     onSlide(spring_, [this](bool continuesEdit) {
         edit("Spring", sprung(model_.world().drawing(), springJoint_, spring_.getValue()), continuesEdit);
     });
     describe(belt_, "Belt speed", "Speed of the conveyor belt, in m/s, on top to the right");
     belt_.setRange(-20.0, 20.0, 0.1);
+    belt_.setTextValueSuffix(" m/s");
     slides(belt_, "Belt speed", [](BodyDescription& b, double speed) {
         constexpr double still = 0.01; // it stays a belt
         b.velocityMetresPerSecond.x = speed == 0.0 ? still : speed;

@@ -156,6 +156,7 @@ bool DrawPane::isBeside(juce::Point<float> place) const {
 
 void DrawPane::mouseDown(const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu()) return onMenu ? onMenu(e.position) : void();
+    model_.messages().withdraw(triedLabel); // one tries again, or something else
     to_ = at(e);
     if (tool_ != DrawTool::choose) choose({});
     if (isBeside(e.position)) return;
@@ -392,7 +393,7 @@ void DrawPane::join() {
         return model_.messages().show({"A joint holds a body: begin on one, in a pause if they move",
                                        false,
                                        {"Pause", [&model = model_] { model.setSlowness(0); }},
-                                       "joint"});
+                                       triedLabel});
     std::vector<Action> actions;
     std::string b = first.empty() ? std::string{} : first[0],
                 a = second.size() > other && second[other] != b ? second[other] : std::string{};
@@ -418,7 +419,7 @@ void DrawPane::join() {
         joined(trial, kind, place(a), place(b), isTurnedRound ? to_ : from, isTurnedRound ? from : to_);
     if (!made) return model_.report(utf8(made.error));
     actions.insert(actions.end(), made.value.begin(), made.value.end());
-    model_.messages().withdraw("joint");
+    model_.messages().withdraw(triedLabel);
     edit(wordsOf(tool_).name, std::move(actions));
 }
 
@@ -429,6 +430,22 @@ constexpr float handlePixels = 9.0f;
 double angleOf(const Vector& from, const Vector& to) { return std::atan2(to.y - from.y, to.x - from.x); }
 
 } // namespace
+
+juce::Rectangle<float> DrawPane::chosenArea() const {
+    juce::Rectangle<float> area;
+    for (const std::string& name : chosen_) {
+        const auto* body = drawing().find(name);
+        const auto place = body ? placeNow(name) : std::nullopt;
+        if (!place) continue;
+        const Reach reach = reachOf(*body);
+        for (const double x : {reach.least.x, reach.most.x})
+            for (const double y : {reach.least.y, reach.most.y}) {
+                const auto at = view_.placeOfMetres(detail::Motion{{}, *place}({x, y}));
+                area = area.getUnion(juce::Rectangle<float>{1.0f, 1.0f}.withCentre(at));
+            }
+    }
+    return area;
+}
 
 std::optional<DrawPane::Handles> DrawPane::handles() const {
     const auto* body = chosen_.size() == 1 ? drawing().find(chosen_[0]) : nullptr;

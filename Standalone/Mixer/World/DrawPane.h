@@ -59,6 +59,8 @@ public:
     std::function<void()> onChange;                       ///< tool, selection or material changed
     std::function<void(juce::Point<float> place)> onMenu; ///< right click
 
+    juce::Rectangle<float> chosenArea() const; ///< around what is selected, in pixels; empty: nothing is
+
     bool isDrawing() const noexcept { return isDrawing_; } ///< or moves what is selected
     void cancelStroke();
 

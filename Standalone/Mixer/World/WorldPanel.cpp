@@ -6,6 +6,7 @@
 #include "Scene/SceneEdits.h"
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace physvib {
@@ -116,10 +117,12 @@ void WorldPanel::mixChanged() {
     shownEdits_ = model_.world().edits();
     pane_.mixChanged();
     showTools();
-    std::vector<bool> muted;
-    for (int j = 0; j < mix.count(); ++j)
-        muted.push_back(mix.isSilent(j) || !model_.device().isPlayed(static_cast<std::size_t>(j)));
-    view_.show(mix.layout, mix.panner(), std::move(muted));
+    std::vector<bool> muted, without;
+    for (int j = 0; j < mix.count(); ++j) {
+        without.push_back(!model_.device().isPlayed(static_cast<std::size_t>(j)));
+        muted.push_back(mix.isSilent(j) || without.back());
+    }
+    view_.show(mix.layout, mix.panner(), std::move(muted), std::move(without));
     master_.mixChanged();
     view_.setDisplayWidth(model_.displayWidthMetres());
     law_.setText(juce::String{nameOf(mix.panner().law()).data()} + " law" + dot + "exponent " +
@@ -147,7 +150,35 @@ void WorldPanel::showTools() {
     placeInspector();
 }
 
-// Beside the field if there is room, else in a line above it; wherever what is selected is, it stays there.
+/// In the field, where it covers no badge and nothing of what is chosen, or least of them; it stays where it
+/// is while that holds, and under a hand.
+juce::Rectangle<int> WorldPanel::withinField(int wide, int high) const {
+    const auto field = juce::Rectangle<float>{view_.placeOfShare({0.0, 1.0}), view_.placeOfShare({1.0, 0.0})}
+                           .toNearestInt() +
+                       view_.getPosition();
+    const auto inner = field.reduced(24);
+    const auto chosen = pane_.chosenArea().toNearestInt().expanded(4) + pane_.getPosition();
+    const auto covers = [&](juce::Rectangle<int> place) {
+        const auto overlap = [&place](juce::Rectangle<int> with) {
+            const auto both = place.getIntersection(with);
+            return both.getWidth() * both.getHeight();
+        };
+        int sum = overlap(chosen);
+        for (const auto& badge : view_.badges()) sum += overlap(badge.toNearestInt() + view_.getPosition());
+        return sum;
+    };
+    auto best = body_.getBounds();
+    const bool isThere = best.getWidth() == wide && best.getHeight() == high && inner.contains(best);
+    if (isThere && body_.isMouseOver(true)) return best;
+    int least = isThere ? covers(best) : std::numeric_limits<int>::max();
+    for (const int y : {inner.getY(), inner.getCentreY() - high / 2, inner.getBottom() - high})
+        for (const int x : {inner.getRight() - wide, inner.getX(), inner.getCentreX() - wide / 2})
+            if (const juce::Rectangle<int> place{x, y, wide, high}; covers(place) < least)
+                best = place, least = covers(place);
+    return best;
+}
+
+// Beside the field if there is room, else in a line above it, else in it.
 void WorldPanel::placeInspector() {
     if (!body_.isVisible()) return;
     const auto room = getLocalBounds()
@@ -167,8 +198,12 @@ void WorldPanel::placeInspector() {
         place.setX(std::min(right + apart, room.getRight() - wide));
     else if (left - least >= room.getX())
         place.setX(std::max(left - apart, room.getX()));
-    else
+    else {
         place = room.withHeight(body_.heightFor(room.getWidth()));
+        constexpr int badge = 15; // as far one stands above the field
+        const int top = juce::roundToInt(view_.placeOfShare({0.0, 1.0}).y) + view_.getY() - badge;
+        if (place.getBottom() > top) place = withinField(wide, high);
+    }
     body_.setBounds(place);
 }
 
@@ -315,7 +350,7 @@ juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
 /// In one line or two, broken between the parts; empty if there is no room.
 juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     const auto font = sentence_.getFont();
-    const int room = sentence_.getWidth() - sentence_.getBorderSize().getLeftAndRight();
+    const int room = sentence_.getWidth() - sentence_.getBorderSize().getLeftAndRight() - 10;
     juce::StringArray lines{parts[0]};
     for (int k = 1; k < parts.size(); ++k) {
         const auto longer = lines.strings.getReference(lines.size() - 1) + dot + parts[k];

@@ -90,6 +90,7 @@ private:
     void addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place);
     void addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector place);
     void placeInspector();
+    juce::Rectangle<int> withinField(int wide, int high) const;
     void showTools();
     void edit(const juce::String& name, const Action& action);
     void play(const std::vector<Action>& actions);

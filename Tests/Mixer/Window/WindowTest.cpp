@@ -609,7 +609,17 @@ TEST(Window, ShareLeadsWhereAPersonCanGo) {
         EXPECT_TRUE(files.words().contains("build-web.sh")) << files.words();
         for (const char* words : {"Save movie", "Save as scene"})
             EXPECT_TRUE(dynamic_cast<juce::Button&>(*find(files, words + dots())).isEnabled()) << words;
-        files.answer("Other page" + dots());
+        files.answer("Save as scene" + dots());
+        FileCard* card = nullptr;
+        ASSERT_TRUE(
+            runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
+        EXPECT_FALSE(card->folder().isAChildOf(folder("config"))) << "nobody looks there";
+        EXPECT_FALSE(card->folder().getFullPathName().contains("/."));
+        card->setName("for a friend");
+        card->accept();
+        ASSERT_TRUE(runUntil([&] { return window.model().trouble().contains("for a friend.json"); }));
+        window.share();
+        window.view().question()->answer("Other page" + dots());
         ASSERT_TRUE(runUntil([&] {
             auto* next = window.view().question();
             return next != nullptr && find(*next, "Address of the page") != nullptr;
