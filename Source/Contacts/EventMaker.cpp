@@ -52,8 +52,27 @@ void EventMaker::addModesOf(const SmallImpact& impact) {
     }
 }
 
+void EventMaker::addAll(const GrainRuns& of) {
+    other_ = FixtureTable::none - 1; // the event's is another
+    // which zero is the least depends on their order
+    const bool hasZero = of.least[0] * of.least[1] * of.most[0] * of.most[1] == 0.0;
+    if (of.isUsual && !hasZero && events_.push(of, event_)) [[likely]] return made_.add(of.count, of.least, of.most);
+    for (std::size_t i = 0; i < of.count; ++i) {
+        event_.timeNs = of.timeNs[i];
+        event_.amplitude = of.amplitude[i];
+        event_.x = of.x[i];
+        event_.y = of.y[i];
+        event_.z = of.z[i];
+        event_.source.other = of.runOf(i).otherId;
+        event_.source.impulseNewtonSeconds = of.newtonSeconds[i];
+        event_.source.kind = static_cast<ContactKind>(of.kinds[i]);
+        if (event_.source.kind != ContactKind::hit) send(true);
+    }
+}
+
 void EventMaker::setSource(std::int32_t camera) {
     camera_ = camera;
+    isPrepared_ = false;
     hasMet_ = false;
     const KnownFixture& of = table_[camera];
     gain_ = of.values.gain;
@@ -166,6 +185,19 @@ bool EventSorter::grow() noexcept {
     first_ = 0;
     mask_ = count - 1;
     places_ = std::min(capacity_, count);
+    return true;
+}
+
+bool EventSorter::push(const GrainRuns& grains, const CollisionEvent& model) noexcept {
+    while (count_ + grains.count > places_)
+        if (!grow()) return false;
+    for (std::size_t i = 0; i < grains.count;) { // to the end of the ring, and from its beginning
+        const std::size_t at = place(count_), end = i + std::min(grains.count - i, mask_ + 1 - at);
+        grains.write(i, end, model, held_.data() + at);
+        count_ += end - i;
+        for (Waiting* to = waiting_.data() + at; i < end; ++i, ++to)
+            *to = {grains.timeNs[i], model.source.fixture, grains.runOf(i).otherId};
+    }
     return true;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 #include "Contacts/ContactCounts.h"
 #include "Contacts/FixtureTable.h"
+#include "Contacts/GrainRuns.h"
 #include "Contacts/HapticFixture.h"
 #include "Contacts/Impact.h"
 #include "Contacts/ImpactSettings.h"
@@ -38,6 +39,9 @@ public:
         held_[at].source.other = std::max(event.source.other, -1);
         waiting_[at] = {event.timeNs, event.source.fixture, event.source.other};
     }
+
+    /// Adds all of these, like `model` otherwise. False, and nothing is done: there is no room.
+    bool push(const GrainRuns& grains, const CollisionEvent& model) noexcept;
 
     /// Moves all events before `beforeNs` to the end of `finished`.
     void release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished);
@@ -109,6 +113,25 @@ public:
         if (camera != camera_) setSource(camera);
         if (!isMuted_ && (!hasMet_ || other != other_)) setPartner(other);
     }
+    /// The same for runs of grains. False: they are to be added one by one.
+    bool prepare(std::int32_t camera, std::int32_t other, GrainRuns& runs) {
+        meet(camera, other);
+        isPrepared_ = !isMuted_ && hasOwnSound_ && modeCount_ == 1 && isAtContact_ && modes_[0].isPlayable &&
+                      runs.startNs >= 0 && runs.startNs < limits::maxTimeNs / 2;
+        runs.perNewtonSecond = perNewtonSecond_;
+        runs.divisor = amplitudeDivisor_;
+        runs.gain = gain_;
+        runs.pairGain = pairGain_;
+        runs.relativeAmplitude = modes_[0].relativeAmplitude;
+        runs.origin = settings_.fieldOrigin;
+        runs.cosine = cos_;
+        runs.sine = sin_;
+        return isPrepared_;
+    }
+    /// As that was for any partner.
+    bool isPrepared(std::int32_t camera) const noexcept { return camera == camera_ && isPrepared_; }
+    std::int32_t idOf(std::int32_t other) const noexcept { return table_[other].id; }
+    void addAll(const GrainRuns& of);
     void add(const SmallImpact& impact) {
         if (isMuted_ || modeCount_ != 1) [[unlikely]]
             return addModesOf(impact);
@@ -132,10 +155,13 @@ private:
         event_.source.impulseNewtonSeconds = impact.newtonSeconds;
         event_.source.kind = impact.kind;
         event_.amplitude = mode.relativeAmplitude * amplitude;
+        send(mode.isPlayable);
+    }
+    [[gnu::always_inline]] void send(bool isPlayable) noexcept {
         // The rest of isPlayable() is the mode's. The sum is finite if its parts are: these are no larger
         // than floats.
-        if (!(impact.timeNs >= 0 && impact.timeNs <= limits::maxTimeNs &&
-              std::isfinite(event_.x + event_.y + event_.z) && mode.isPlayable &&
+        if (!(event_.timeNs >= 0 && event_.timeNs <= limits::maxTimeNs &&
+              std::isfinite(event_.x + event_.y + event_.z) && isPlayable &&
               std::abs(event_.amplitude) <= limits::maxAmplitude)) [[unlikely]] {
             ++counts_.unplayable;
             return;
@@ -181,6 +207,7 @@ private:
     bool hasMet_ = false, hasOwnSound_ = false; // the source's own, for any partner
     std::int32_t other_ = FixtureTable::none;
     double pairGain_ = 1.0;
+    bool isPrepared_ = false; // for runs of grains with it
     int modeCount_ = 0;
     std::array<Mode, 2 * (1 + std::tuple_size_v<Overtones>)> modes_;
 };

@@ -4,9 +4,59 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+// The same once for any processor of this kind, and once for what nearly all have.
+namespace physvib::plain {
+#ifdef __SSE2__
+#define LANES 2
+#else
+#define LANES 1
+#endif
+#include "Contacts/GrainLanes.inc"
+#undef LANES
+} // namespace physvib::plain
+#ifdef __SSE2__
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#endif
+namespace physvib::wide {
+#define LANES 4
+#include "Contacts/GrainLanes.inc"
+#undef LANES
+} // namespace physvib::wide
+#ifdef __clang__
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#endif
 
 namespace physvib {
+
+#ifdef __SSE2__
+namespace {
+const bool isWide = __builtin_cpu_supports("avx2") != 0;
+}
+void GrainRuns::compute() noexcept { isWide ? wide::compute(*this) : plain::compute(*this); }
+void GrainRuns::write(std::size_t first, std::size_t last, const CollisionEvent& model,
+                      CollisionEvent* to) const noexcept {
+    isWide ? wide::write(*this, first, last, model, to) : plain::write(*this, first, last, model, to);
+}
+#else
+void GrainRuns::compute() noexcept { plain::compute(*this); }
+void GrainRuns::write(std::size_t first, std::size_t last, const CollisionEvent& model,
+                      CollisionEvent* to) const noexcept {
+    plain::write(*this, first, last, model, to);
+}
+#endif
 
 namespace {
 
@@ -42,6 +92,10 @@ void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts
         std::vector<Impact>& impacts;
         std::int32_t camera = FixtureTable::none, other = FixtureTable::none;
         void meet(std::int32_t one, std::int32_t two) noexcept { camera = one, other = two; }
+        static bool isPrepared(std::int32_t) noexcept { return false; }
+        static bool prepare(std::int32_t, std::int32_t, GrainRuns&) noexcept { return false; }
+        static std::int32_t idOf(std::int32_t) noexcept { return FixtureTable::none; }
+        static void addAll(GrainRuns&) noexcept {}
         void add(const Impact& of) { impacts.push_back(of); }
         void add(const SmallImpact& of) {
             add({camera, other, of.timeNs, of.newtonSeconds, of.point, of.kind});

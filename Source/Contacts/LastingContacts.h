@@ -3,6 +3,7 @@
 #pragma once
 #include "Contacts/FacePoints.h"
 #include "Contacts/FixtureTable.h"
+#include "Contacts/GrainRuns.h"
 #include "Contacts/Grains.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
@@ -225,7 +226,15 @@ public:
     template <class Maker>
     void collectFor(const StepSpan& span, Maker& maker) {
         follow(span.seconds());
-        for (const Passage& passage : passages_) pass(passage, span, maker);
+        if (passages_.empty()) return;
+        GrainRuns runs;
+        runs.seconds = span.seconds();
+        runs.backSeconds = 1.5 * runs.seconds;
+        runs.perSecond = 1.0 / runs.seconds;
+        runs.startNs = span.startNs;
+        runs.lengthNs = static_cast<double>(span.endNs - span.startNs);
+        for (const Passage& passage : passages_) pass(passage, span, runs, maker);
+        flush(runs, maker);
     }
     void endStep();
 
@@ -310,7 +319,12 @@ private:
                    : nullptr;
     }
     template <class Maker>
-    void pass(const Passage& passage, const StepSpan& span, Maker& maker);
+    void pass(const Passage& passage, const StepSpan& span, GrainRuns& runs, Maker& maker);
+    template <class Maker>
+    GrainGap walk(const Grains& grains, const Passage& passage, const GrainGap* gap, std::int32_t other,
+                  GrainRuns& runs, Maker& maker);
+    template <class Maker>
+    [[gnu::noinline]] static void flush(GrainRuns& runs, Maker& maker);
 
     const FixtureTable& table_;
     std::array<FacePoint, 32> faces_; // reported, not yet computed; so many stay in the first-level cache
@@ -323,7 +337,62 @@ private:
 };
 
 template <class Maker>
-void LastingContacts::pass(const Passage& passage, const StepSpan& span, Maker& maker) {
+void LastingContacts::flush(GrainRuns& runs, Maker& maker) {
+    if (runs.count > 0) {
+        runs.compute();
+        maker.addAll(runs);
+    }
+    runs.count = runs.runCount = 0;
+}
+
+template <class Maker>
+inline GrainGap LastingContacts::walk(const Grains& grains, const Passage& passage, const GrainGap* gap,
+                                      std::int32_t other, GrainRuns& runs, Maker& maker) {
+    const SurfaceMotion& motion = passage.motion;
+    const double end = motion.metresAt(motion.seconds);
+    const bool isUp = end > motion.startMetres;
+    const double sign = isUp ? 1.0 : -1.0;
+    double behind = 0.0, ahead = 0.0;
+    std::int64_t index = grains.begin(motion.startMetres, isUp, passage.every, gap, behind, ahead);
+    if (sign * (end - ahead) >= 0.0) {
+        const LastingPoint& point = passage.told->point;
+        const Texture& texture = table_[passage.surface].values.texture;
+        if (runs.runCount == GrainRuns::mostRuns) flush(runs, maker);
+        GrainRuns::Run run;
+        run.start = motion.startMetres;
+        run.metresPerSecond = motion.metresPerSecond;
+        run.metresPerSecond2 = motion.metresPerSecond2;
+        run.sign = sign;
+        run.slipping = std::abs(point.slipMetresPerSecond);
+        run.perSpeed = grainImpulse(texture.roughness, passage.loadNewtons, 1.0);
+        run.power = std::sqrt(static_cast<double>(passage.every));
+        run.unused = 0.0;
+        run.point = point.point;
+        run.velocity = point.metresPerSecond;
+        run.other = std::max(other, -1);
+        run.otherId = other;
+        runs.runs[runs.runCount++] = run;
+        std::uint64_t passed = 0;
+        do {
+            if (runs.count == GrainRuns::mostGrains) [[unlikely]] {
+                flush(runs, maker);
+                runs.runs[runs.runCount++] = run;
+            }
+            behind = ahead;
+            runs.metres[runs.count] = ahead;
+            runs.names[runs.count] = grains.nameOf(index);
+            runs.runAt[runs.count++] = static_cast<std::uint32_t>((runs.runCount - 1) * sizeof run);
+            ++passed;
+            index += isUp ? passage.every : -passage.every;
+            ahead = grains.metresOf(index);
+        } while (sign * (end - ahead) >= 0.0);
+        thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
+    }
+    return isUp ? GrainGap{behind, ahead, index, true} : GrainGap{ahead, behind, index, false};
+}
+
+template <class Maker>
+void LastingContacts::pass(const Passage& passage, const StepSpan& span, GrainRuns& runs, Maker& maker) {
     Told& told = *passage.told;
     told.inGapOf = passage.surface;
     told.revision = table_.revision();
@@ -340,6 +409,19 @@ void LastingContacts::pass(const Passage& passage, const StepSpan& span, Maker& 
     const Grains grains{static_cast<std::uint64_t>(surface.id), texture};
     const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
     const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
+    if (isFeltByA != isFeltByB && !(motion.turn() < motion.seconds)) [[likely]] {
+        if (runs.surface != passage.surface || !maker.isPrepared(one)) {
+            flush(runs, maker);
+            runs.surface = maker.prepare(one, other, runs) ? passage.surface : FixtureTable::none;
+            grains.describe(runs);
+        }
+        if (runs.surface != FixtureTable::none) {
+            told.gap = walk(grains, passage, gap, maker.idOf(other), runs, maker);
+            return;
+        }
+    }
+    flush(runs, maker);
+    runs.surface = FixtureTable::none;
     struct Constants {
         double power, perSecond, backSeconds, slipping, perSpeed, rolling;
         Vector3 from, velocity;
