@@ -72,7 +72,6 @@ void EventMaker::addAll(const GrainRuns& of) {
 
 void EventMaker::setSource(std::int32_t camera) {
     camera_ = camera;
-    isPrepared_ = false;
     hasMet_ = false;
     const KnownFixture& of = table_[camera];
     gain_ = of.values.gain;
@@ -191,6 +190,7 @@ bool EventSorter::grow() noexcept {
 bool EventSorter::push(const GrainRuns& grains, const CollisionEvent& model) noexcept {
     while (count_ + grains.count > places_)
         if (!grow()) return false;
+    leastNewNs_ = std::min(leastNewNs_, grains.startNs);
     for (std::size_t i = 0; i < grains.count;) { // to the end of the ring, and from its beginning
         const std::size_t at = place(count_), end = i + std::min(grains.count - i, mask_ + 1 - at);
         grains.write(i, end, model, held_.data() + at);
@@ -204,6 +204,7 @@ bool EventSorter::push(const GrainRuns& grains, const CollisionEvent& model) noe
 // Those that stay move behind the last one that leaves: of grains none has to.
 template <class IsLeft>
 void EventSorter::leave(std::size_t count, IsLeft isLeft) noexcept {
+    leastNewNs_ = std::numeric_limits<std::int64_t>::min(); // which are new is not known any more
     std::size_t to = count;
     for (std::size_t i = count; i-- > 0;) {
         if (isLeft(waiting_[place(i)])) continue;
@@ -228,24 +229,39 @@ bool EventSorter::dropWeakest(double amplitude) noexcept {
 }
 
 void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished) {
-    std::size_t count = 0, end = 0;
+    const std::size_t among = leastNewNs_ < beforeNs ? count_ : old_; // none of the new ones is released
+    std::size_t end = 0;
     std::int64_t firstNs = beforeNs, lastNs = std::numeric_limits<std::int64_t>::min();
-    for (std::size_t i = 0; i < count_; ++i) {
-        const Waiting& each = waiting_[place(i)];
+    Turn *const turns = turns_.data(), *turn = turns;
+    const Waiting* const waiting = waiting_.data();
+    for (std::size_t i = 0, mask = mask_, first = first_; i < among; ++i) {
+        const Waiting& each = waiting[(first + i) & mask];
         if (each.timeNs >= beforeNs) continue;
         firstNs = std::min(firstNs, each.timeNs);
         lastNs = std::max(lastNs, each.timeNs);
         const auto fixture = static_cast<std::uint32_t>(each.fixture) ^ 0x80000000U; // in order as unsigned
-        turns_[count++] = {each.timeNs, static_cast<std::uint64_t>(fixture) << 32U | i};
+        *turn++ = {each.timeNs, static_cast<std::uint64_t>(fixture) << 32U | i};
         end = i + 1;
     }
-    if (count == 0) return;
-    share(count, firstNs, lastNs);
-    sort(count);
-    for (std::size_t i = 0; i < count; ++i) finished.push_back(held_[place(turns_[i].rank & 0xFFFFFFFFU)]);
-    if (count < end) return leave(end, [beforeNs](const Waiting& each) { return each.timeNs < beforeNs; });
-    first_ = place(count);
-    count_ -= count;
+    const auto count = static_cast<std::size_t>(turn - turns);
+    if (count > 0) {
+        share(count, firstNs, lastNs);
+        sort(count);
+        if (finished.capacity() - finished.size() < count)
+            finished.reserve(std::max(finished.size() + count, 2 * finished.capacity()));
+        const CollisionEvent* const held = held_.data();
+        const std::size_t first = first_, mask = mask_;
+        for (const Turn& each : std::span{turns_.data(), count})
+            finished.push_back(held[(first + (each.rank & 0xFFFFFFFFU)) & mask]);
+        if (count < end) {
+            leave(end, [beforeNs](const Waiting& each) { return each.timeNs < beforeNs; });
+        } else {
+            first_ = place(count);
+            count_ -= count;
+        }
+    }
+    old_ = count_;
+    leastNewNs_ = std::numeric_limits<std::int64_t>::max();
 }
 
 // By time into as many buckets as there are events: grains arrive by hundreds per step, evenly distributed,

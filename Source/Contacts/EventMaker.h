@@ -34,6 +34,7 @@ public:
     /// without haptic values have no id: as the other one they are released as -1.
     [[gnu::always_inline]] void push(const CollisionEvent& event) noexcept {
         if (count_ == places_ && !grow() && !dropWeakest(event.amplitude)) return;
+        leastNewNs_ = std::min(leastNewNs_, event.timeNs);
         const std::size_t at = place(count_++);
         held_[at] = event;
         held_[at].source.other = std::max(event.source.other, -1);
@@ -80,6 +81,8 @@ private:
     std::uint64_t drops_ = 0;
     // A ring in order of arrival; its size is a power of two, one more than the mask
     std::size_t first_ = 0, count_ = 0, places_ = 0, mask_ = 0;
+    std::size_t old_ = 0; // those up to the last release; no later one is before
+    std::int64_t leastNewNs_ = std::numeric_limits<std::int64_t>::max();
     std::vector<CollisionEvent> held_;
     std::vector<Waiting> waiting_; // of each held one
     // Of those being released, as long as held_: their buckets in time
@@ -116,8 +119,8 @@ public:
     /// The same for runs of grains. False: they are to be added one by one.
     bool prepare(std::int32_t camera, std::int32_t other, GrainRuns& runs) {
         meet(camera, other);
-        isPrepared_ = !isMuted_ && hasOwnSound_ && modeCount_ == 1 && isAtContact_ && modes_[0].isPlayable &&
-                      runs.startNs >= 0 && runs.startNs < limits::maxTimeNs / 2;
+        const bool isUsed = !isMuted_ && hasOwnSound_ && modeCount_ == 1 && isAtContact_ && modes_[0].isPlayable &&
+                            runs.startNs >= 0 && runs.startNs < limits::maxTimeNs / 2;
         runs.perNewtonSecond = perNewtonSecond_;
         runs.divisor = amplitudeDivisor_;
         runs.gain = gain_;
@@ -126,10 +129,8 @@ public:
         runs.origin = settings_.fieldOrigin;
         runs.cosine = cos_;
         runs.sine = sin_;
-        return isPrepared_;
+        return isUsed;
     }
-    /// As that was for any partner.
-    bool isPrepared(std::int32_t camera) const noexcept { return camera == camera_ && isPrepared_; }
     std::int32_t idOf(std::int32_t other) const noexcept { return table_[other].id; }
     void addAll(const GrainRuns& of);
     void add(const SmallImpact& impact) {
@@ -207,7 +208,6 @@ private:
     bool hasMet_ = false, hasOwnSound_ = false; // the source's own, for any partner
     std::int32_t other_ = FixtureTable::none;
     double pairGain_ = 1.0;
-    bool isPrepared_ = false; // for runs of grains with it
     int modeCount_ = 0;
     std::array<Mode, 2 * (1 + std::tuple_size_v<Overtones>)> modes_;
 };

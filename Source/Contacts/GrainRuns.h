@@ -17,22 +17,21 @@ struct GrainRuns {
     /// A point's way along the surface, which does not reverse.
     struct alignas(32) Run {
         double start, metresPerSecond, metresPerSecond2, sign; ///< of the motion; sign: of its direction
-        double slipping, perSpeed, power, unused;
+        double slip, newtons, every, unused;
         Vector3 point, velocity;
-        std::int32_t other, otherId; ///< of whom: as events have it, and as it is
+        std::int32_t otherId, unusedToo;
     };
 
     double seconds, backSeconds, perSecond; ///< of the step
     std::int64_t startNs;
     double lengthNs; ///< below 2^31
     // Of the surface: see Grains and GrainChance. Where grains are regular the weakest is 1, and the range 0
-    double leastStrength, strengthRange, rolling;
+    double leastStrength, strengthRange, rolling, steepness;
     // Of the events: as EventMaker has them
     double perNewtonSecond, divisor, gain, pairGain, relativeAmplitude;
     Vector2 origin;
     float cosine, sine;
 
-    std::int32_t surface = -1; ///< slot; none: it is not one for runs
     std::size_t runCount = 0, count = 0;
     std::array<Run, mostRuns> runs;
     template <class Value>

@@ -33,9 +33,9 @@ struct Texture {
 /// Impulse of one grain in N s, for a load in N and the speed in m/s at which it is passed. The pressing mass
 /// (load / g) is lifted along a slope of 10 % of the roughness, so the impulse is proportional to both. Any
 /// thread.
+constexpr double grainSlope = 0.1;
 constexpr double grainImpulse(double roughness, double loadNewtons, double metresPerSecond) noexcept {
-    constexpr double slope = 0.1;
-    return slope * roughness * loadNewtons / standardGravity * metresPerSecond;
+    return grainSlope * roughness * loadNewtons / standardGravity * metresPerSecond;
 }
 
 /// The error of a value, with what was expected; empty if all are valid. Any thread.
@@ -103,7 +103,6 @@ public:
         : seed_{2 * surface * seedFactor}
         , grainMetres_{texture.grainMetres}
         , perMetre_{1.0 / texture.grainMetres}
-        , rolling_{texture.rolling}
         , isRandom_{texture.pattern == GrainPattern::random} {}
 
     /// Place of a grain along the surface.
@@ -136,7 +135,6 @@ public:
     void describe(GrainRuns& runs) const noexcept {
         runs.leastStrength = isRandom_ ? GrainChance::leastStrength : 1.0;
         runs.strengthRange = isRandom_ ? GrainChance::strengthRange : 0.0;
-        runs.rolling = rolling_;
     }
     /// What the strength of a grain is drawn by, see GrainRuns.
     std::uint64_t nameOf(std::int64_t index) const noexcept { return nameOf(index, 1); }
@@ -216,7 +214,7 @@ private:
     static constexpr std::uint64_t seedFactor = 0xD1342543DE82EF95U;
 
     std::uint64_t seed_; // by surface
-    double grainMetres_, perMetre_, rolling_;
+    double grainMetres_, perMetre_;
     bool isRandom_;
 };
 

@@ -11,6 +11,13 @@
 #endif
 
 // The same once for any processor of this kind, and once for what nearly all have.
+namespace physvib {
+/// FaceRuns as they are used.
+struct FaceMoves {
+    std::array<double, faceLanes> metres, speed, slip;
+    std::array<float, faceLanes> x, y, xMetresPerSecond, yMetresPerSecond;
+};
+} // namespace physvib
 namespace physvib::plain {
 #ifdef __SSE2__
 #define LANES 2
@@ -41,10 +48,17 @@ namespace physvib::wide {
 
 namespace physvib {
 
-#ifdef __SSE2__
 namespace {
+#ifdef __SSE2__
 const bool isWide = __builtin_cpu_supports("avx2") != 0;
+void moveFaces(const FacePoint* rows, FaceMoves& moves) noexcept {
+    isWide ? wide::moveFaces(rows, moves) : plain::moveFaces(rows, moves);
 }
+#else
+void moveFaces(const FacePoint* rows, FaceMoves& moves) noexcept { plain::moveFaces(rows, moves); }
+#endif
+} // namespace
+#ifdef __SSE2__
 void GrainRuns::compute() noexcept { isWide ? wide::compute(*this) : plain::compute(*this); }
 void GrainRuns::write(std::size_t first, std::size_t last, const CollisionEvent& model,
                       CollisionEvent* to) const noexcept {
@@ -92,7 +106,6 @@ void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts
         std::vector<Impact>& impacts;
         std::int32_t camera = FixtureTable::none, other = FixtureTable::none;
         void meet(std::int32_t one, std::int32_t two) noexcept { camera = one, other = two; }
-        static bool isPrepared(std::int32_t) noexcept { return false; }
         static bool prepare(std::int32_t, std::int32_t, GrainRuns&) noexcept { return false; }
         static std::int32_t idOf(std::int32_t) noexcept { return FixtureTable::none; }
         static void addAll(GrainRuns&) noexcept {}
@@ -117,17 +130,16 @@ SurfacePath around(const FacePoint& of) noexcept {
 void LastingContacts::computeFaces(LastingContacts& all) {
     const std::size_t count = std::exchange(all.faceCount_, 0);
     // of rows behind the last nothing is used
+    FaceMoves moves;
     for (std::size_t first = 0; first < count; first += faceLanes) {
-        const FaceRuns runs{&all.faces_[first]};
+        moveFaces(&all.faces_[first], moves);
         for (std::size_t i = 0; i < std::min(faceLanes, count - first); ++i) {
             const FacePoint& of = all.faces_[first + i];
-            const SurfacePath face{static_cast<double>(laneOf(runs.metres, i)),
-                                   static_cast<double>(laneOf(runs.speed, i))},
+            const SurfacePath face{moves.metres[i], moves.speed[i]},
                 other = of.isDiscRough ? around(of) : SurfacePath{};
-            all.add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds),
-                     static_cast<double>(laneOf(runs.slip, i)),
-                     Vector2{laneOf(runs.point.x, i), laneOf(runs.point.y, i)},
-                     Vector2{laneOf(runs.metresPerSecond.x, i), laneOf(runs.metresPerSecond.y, i)},
+            all.add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds), moves.slip[i],
+                     Vector2{moves.x[i], moves.y[i]},
+                     Vector2{moves.xMetresPerSecond[i], moves.yMetresPerSecond[i]},
                      of.isTurned ? other : face, of.isTurned ? face : other},
                     of.pairsKey);
         }

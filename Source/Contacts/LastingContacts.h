@@ -227,7 +227,7 @@ public:
     void collectFor(const StepSpan& span, Maker& maker) {
         follow(span.seconds());
         if (passages_.empty()) return;
-        GrainRuns runs;
+        Runs runs;
         runs.seconds = span.seconds();
         runs.backSeconds = 1.5 * runs.seconds;
         runs.perSecond = 1.0 / runs.seconds;
@@ -318,13 +318,21 @@ private:
                    ? &before.gap
                    : nullptr;
     }
+    struct Runs : GrainRuns {
+        std::int32_t surface = FixtureTable::none, camera = FixtureTable::none;
+        bool isUsed = false; // the maker takes runs of these
+        Grains grains{0, Texture{1.0}};
+    };
     template <class Maker>
-    void pass(const Passage& passage, const StepSpan& span, GrainRuns& runs, Maker& maker);
+    [[gnu::noinline]] static void flush(Runs& runs, Maker& maker);
     template <class Maker>
-    GrainGap walk(const Grains& grains, const Passage& passage, const GrainGap* gap, std::int32_t other,
-                  GrainRuns& runs, Maker& maker);
+    [[gnu::noinline]] void begin(const Passage& passage, std::int32_t camera, std::int32_t other, Runs& runs,
+                                 Maker& maker);
     template <class Maker>
-    [[gnu::noinline]] static void flush(GrainRuns& runs, Maker& maker);
+    [[gnu::always_inline]] void pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker);
+    template <class Maker>
+    [[gnu::noinline]] void passEach(const Passage& passage, const StepSpan& span, const GrainGap* gap,
+                                    Runs& runs, Maker& maker);
 
     const FixtureTable& table_;
     std::array<FacePoint, 32> faces_; // reported, not yet computed; so many stay in the first-level cache
@@ -337,7 +345,7 @@ private:
 };
 
 template <class Maker>
-void LastingContacts::flush(GrainRuns& runs, Maker& maker) {
+void LastingContacts::flush(Runs& runs, Maker& maker) {
     if (runs.count > 0) {
         runs.compute();
         maker.addAll(runs);
@@ -346,82 +354,102 @@ void LastingContacts::flush(GrainRuns& runs, Maker& maker) {
 }
 
 template <class Maker>
-inline GrainGap LastingContacts::walk(const Grains& grains, const Passage& passage, const GrainGap* gap,
-                                      std::int32_t other, GrainRuns& runs, Maker& maker) {
-    const SurfaceMotion& motion = passage.motion;
-    const double end = motion.metresAt(motion.seconds);
-    const bool isUp = end > motion.startMetres;
-    const double sign = isUp ? 1.0 : -1.0;
-    double behind = 0.0, ahead = 0.0;
-    std::int64_t index = grains.begin(motion.startMetres, isUp, passage.every, gap, behind, ahead);
-    if (sign * (end - ahead) >= 0.0) {
-        const LastingPoint& point = passage.told->point;
-        const Texture& texture = table_[passage.surface].values.texture;
-        if (runs.runCount == GrainRuns::mostRuns) flush(runs, maker);
-        GrainRuns::Run run;
-        run.start = motion.startMetres;
-        run.metresPerSecond = motion.metresPerSecond;
-        run.metresPerSecond2 = motion.metresPerSecond2;
-        run.sign = sign;
-        run.slipping = std::abs(point.slipMetresPerSecond);
-        run.perSpeed = grainImpulse(texture.roughness, passage.loadNewtons, 1.0);
-        run.power = std::sqrt(static_cast<double>(passage.every));
-        run.unused = 0.0;
-        run.point = point.point;
-        run.velocity = point.metresPerSecond;
-        run.other = std::max(other, -1);
-        run.otherId = other;
-        runs.runs[runs.runCount++] = run;
-        std::uint64_t passed = 0;
-        do {
-            if (runs.count == GrainRuns::mostGrains) [[unlikely]] {
-                flush(runs, maker);
-                runs.runs[runs.runCount++] = run;
-            }
-            behind = ahead;
-            runs.metres[runs.count] = ahead;
-            runs.names[runs.count] = grains.nameOf(index);
-            runs.runAt[runs.count++] = static_cast<std::uint32_t>((runs.runCount - 1) * sizeof run);
-            ++passed;
-            index += isUp ? passage.every : -passage.every;
-            ahead = grains.metresOf(index);
-        } while (sign * (end - ahead) >= 0.0);
-        thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
-    }
-    return isUp ? GrainGap{behind, ahead, index, true} : GrainGap{ahead, behind, index, false};
+void LastingContacts::begin(const Passage& passage, std::int32_t camera, std::int32_t other, Runs& runs,
+                            Maker& maker) {
+    flush(runs, maker);
+    const KnownFixture& surface = table_[passage.surface];
+    const Texture& texture = surface.values.texture;
+    runs.surface = passage.surface;
+    runs.camera = camera;
+    runs.isUsed = maker.prepare(camera, other, runs);
+    runs.grains = Grains{static_cast<std::uint64_t>(surface.id), texture};
+    runs.grains.describe(runs);
+    runs.steepness = grainSlope * texture.roughness;
+    runs.rolling = texture.rolling;
 }
 
 template <class Maker>
-void LastingContacts::pass(const Passage& passage, const StepSpan& span, GrainRuns& runs, Maker& maker) {
+inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker) {
     Told& told = *passage.told;
     told.inGapOf = passage.surface;
     told.revision = table_.revision();
     told.every = passage.every;
-    const SurfaceMotion motion = passage.motion;
+    const SurfaceMotion& motion = passage.motion;
     const GrainGap* const gap = gapBefore(passage);
     if (gap != nullptr && passage.grains < 0.75 && gap->holds(motion)) { // most slow points
         told.gap = *gap;
         return;
     }
     const LastingPoint& point = told.point;
+    const bool isFeltByA = table_.isCamera(point.a);
+    const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
+    if (isFeltByA == table_.isCamera(point.b) || motion.turn() < motion.seconds) [[unlikely]]
+        return passEach(passage, span, gap, runs, maker);
+    if (runs.surface != passage.surface || runs.camera != one) [[unlikely]]
+        begin(passage, one, other, runs, maker);
+    if (!runs.isUsed) [[unlikely]]
+        return passEach(passage, span, gap, runs, maker);
+    const double end = motion.metresAt(motion.seconds);
+    const bool isUp = end > motion.startMetres;
+    const double sign = isUp ? 1.0 : -1.0;
+    const std::int64_t step = isUp ? passage.every : -passage.every;
+    double behind = 0.0, ahead = 0.0;
+    std::int64_t index = runs.grains.begin(motion.startMetres, isUp, passage.every, gap, behind, ahead);
+    if (sign * (end - ahead) >= 0.0) {
+        if (runs.runCount == GrainRuns::mostRuns) [[unlikely]]
+            flush(runs, maker);
+        GrainRuns::Run* run = &runs.runs[runs.runCount++];
+        run->start = motion.startMetres;
+        run->metresPerSecond = motion.metresPerSecond;
+        run->metresPerSecond2 = motion.metresPerSecond2;
+        run->sign = sign;
+        run->slip = point.slipMetresPerSecond;
+        run->newtons = passage.loadNewtons;
+        run->every = static_cast<double>(passage.every);
+        run->point = point.point;
+        run->velocity = point.metresPerSecond;
+        run->otherId = maker.idOf(other);
+        const std::int64_t first = index;
+        std::size_t count = runs.count;
+        do {
+            if (count == GrainRuns::mostGrains) [[unlikely]] {
+                const GrainRuns::Run same = *run;
+                runs.count = count;
+                flush(runs, maker);
+                count = 0;
+                run = &runs.runs[runs.runCount++];
+                *run = same;
+            }
+            behind = ahead;
+            runs.metres[count] = ahead;
+            runs.names[count] = runs.grains.nameOf(index);
+            runs.runAt[count++] = static_cast<std::uint32_t>(reinterpret_cast<const char*>(run) -
+                                                             reinterpret_cast<const char*>(runs.runs.data()));
+            index += step;
+            ahead = runs.grains.metresOf(index);
+        } while (sign * (end - ahead) >= 0.0);
+        runs.count = count;
+        if (passage.every > 1)
+            thinned_ += static_cast<std::uint64_t>((index - first) / step) *
+                        static_cast<std::uint64_t>(passage.every - 1);
+    }
+    told.gap = {isUp ? behind : ahead, isUp ? ahead : behind, index, isUp};
+}
+
+/// The same where runs do not do.
+template <class Maker>
+void LastingContacts::passEach(const Passage& passage, const StepSpan& span, const GrainGap* gap, Runs& runs,
+                               Maker& maker) {
+    flush(runs, maker);
+    runs.surface = FixtureTable::none; // the maker may come to have another
+    Told& told = *passage.told;
+    const SurfaceMotion motion = passage.motion;
+    const LastingPoint& point = told.point;
     const KnownFixture& surface = table_[passage.surface];
     const Texture& texture = surface.values.texture;
     const Grains grains{static_cast<std::uint64_t>(surface.id), texture};
     const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
     const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
-    if (isFeltByA != isFeltByB && !(motion.turn() < motion.seconds)) [[likely]] {
-        if (runs.surface != passage.surface || !maker.isPrepared(one)) {
-            flush(runs, maker);
-            runs.surface = maker.prepare(one, other, runs) ? passage.surface : FixtureTable::none;
-            grains.describe(runs);
-        }
-        if (runs.surface != FixtureTable::none) {
-            told.gap = walk(grains, passage, gap, maker.idOf(other), runs, maker);
-            return;
-        }
-    }
-    flush(runs, maker);
-    runs.surface = FixtureTable::none;
     struct Constants {
         double power, perSecond, backSeconds, slipping, perSpeed, rolling;
         Vector3 from, velocity;
