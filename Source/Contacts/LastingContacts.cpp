@@ -54,8 +54,14 @@ const bool isWide = __builtin_cpu_supports("avx2") != 0;
 void moveFaces(const FacePoint* rows, FaceMoves& moves) noexcept {
     isWide ? wide::moveFaces(rows, moves) : plain::moveFaces(rows, moves);
 }
+void moveAlong(double* rows, std::size_t bytes, std::size_t count, double seconds) noexcept {
+    isWide ? wide::moveAlong(rows, bytes, count, seconds) : plain::moveAlong(rows, bytes, count, seconds);
+}
 #else
 void moveFaces(const FacePoint* rows, FaceMoves& moves) noexcept { plain::moveFaces(rows, moves); }
+void moveAlong(double* rows, std::size_t bytes, std::size_t count, double seconds) noexcept {
+    plain::moveAlong(rows, bytes, count, seconds);
+}
 #endif
 } // namespace
 #ifdef __SSE2__
@@ -71,32 +77,6 @@ void GrainRuns::write(std::size_t first, std::size_t last, const CollisionEvent&
     plain::write(*this, first, last, model, to);
 }
 #endif
-
-namespace {
-
-SurfaceMotion steady(SurfacePath path, double seconds) noexcept {
-    // Half a step's change of speed behind the engine's path, see LastingContacts.h. A new point is treated
-    // as if it had arrived at this speed.
-    return {path.metres - 1.5 * path.metresPerSecond * seconds, path.metresPerSecond, 0.0, seconds};
-}
-
-bool hasJumped(SurfacePath from, SurfacePath to, double seconds) noexcept {
-    const double gone = to.metresPerSecond * seconds;
-    return std::abs(to.metres - from.metres - gone) > 0.5 * std::abs(gone) + 1.0e-3;
-}
-
-/// Motion within a step, from the last path to the present one.
-SurfaceMotion between(SurfacePath from, SurfacePath to, double seconds) noexcept {
-    SurfaceMotion motion;
-    motion.seconds = seconds;
-    motion.startMetres = from.metres - 0.5 * from.metresPerSecond * seconds;
-    motion.metresPerSecond2 = (to.metresPerSecond - from.metresPerSecond) / seconds;
-    motion.metresPerSecond = (to.metres - 0.5 * to.metresPerSecond * seconds - motion.startMetres) / seconds -
-                             0.5 * motion.metresPerSecond2 * seconds;
-    return motion;
-}
-
-} // namespace
 
 LastingContacts::LastingContacts(const FixtureTable& table)
     : table_{table} {}
@@ -146,45 +126,61 @@ void LastingContacts::computeFaces(LastingContacts& all) {
     }
 }
 
-/// Adds the point's passage along a surface, and returns how many grains that is.
+/// Adds the point's passage along a surface.
 template <SurfacePath LastingPoint::*path>
-inline double LastingContacts::follow(Told& told, std::int32_t surface, double seconds) {
+inline void LastingContacts::follow(Told& told, std::int32_t surface, double seconds) {
     const double newtons = pairs_[told.pair].steadyShare * told.point.normalNewtonSeconds / seconds;
-    if (newtons <= 0.0) return 0.0;
-    const SurfacePath to = told.point.*path;
-    const SurfacePath* const from =
-        told.before != StepMemory<Told>::none ? &(points_.before(told.before).point.*path) : nullptr;
-    const SurfaceMotion motion =
-        from != nullptr && !hasJumped(*from, to, seconds) ? between(*from, to, seconds) : steady(to, seconds);
-    const double fastest = std::max(std::abs(motion.metresPerSecond), std::abs(motion.speedAt(seconds)));
-    if (fastest < leastMetresPerSecond) return 0.0;
-    const double grainMetres = table_[surface].values.texture.grainMetres, perSecond = fastest / grainMetres;
-    std::int64_t every = 1;
-    if (perSecond > mostPerSecond)
-        every = static_cast<std::int64_t>(
-            std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / mostPerSecond))));
-    const double grains =
-        std::abs(motion.metresAt(seconds) - motion.startMetres) / grainMetres / static_cast<double>(every);
-    passages_.push_back({&told, surface, newtons, motion, every, grains});
-    return grains;
+    if (newtons <= 0.0) return;
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const SurfacePath to = told.point.*path,
+                      from = told.before != StepMemory<Told>::none
+                                 ? points_.before(told.before).point.*path
+                                 : SurfacePath{unknown, unknown};
+    passages_[passageCount_++] = {from.metres,
+                                  from.metresPerSecond,
+                                  to.metres,
+                                  to.metresPerSecond,
+                                  newtons,
+                                  table_[surface].values.texture.grainMetres,
+                                  0.0,
+                                  0.0,
+                                  &told,
+                                  surface,
+                                  1};
 }
 
 // What the step's points pass, thinned together.
 void LastingContacts::follow(double seconds) {
-    passages_.clear();
+    passageCount_ = 0;
     compute();
     if (!hasHeard()) return;
     if (!(seconds > 0.0) || seconds > longestStepSeconds) return forgetStep();
     for (Pair& pair : pairs_.now()) weigh(pair, seconds);
-    double grains = 0.0;
+    if (const std::size_t most = 2 * points_.count() + 3; passages_.size() < most) passages_.resize(most);
     for (Told& told : points_.now()) {
-        if (table_.isRough(told.point.a)) grains += follow<&LastingPoint::onA>(told, told.point.a, seconds);
-        if (table_.isRough(told.point.b)) grains += follow<&LastingPoint::onB>(told, told.point.b, seconds);
+        if (table_.isRough(told.point.a)) follow<&LastingPoint::onA>(told, told.point.a, seconds);
+        if (table_.isRough(told.point.b)) follow<&LastingPoint::onB>(told, told.point.b, seconds);
+    }
+    moveAlong(&passages_.data()->startMetres, sizeof(Passage), passageCount_, seconds);
+    double grains = 0.0;
+    for (Passage& passage : std::span{passages_.data(), passageCount_}) {
+        const double fastest = std::abs(passage.fastest), perSecond = fastest / passage.grainMetres;
+        if (fastest < leastMetresPerSecond) {
+            passage.every = 0;
+            continue;
+        }
+        if (perSecond > mostPerSecond) {
+            const std::uint64_t every = std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / mostPerSecond)));
+            passage.every = static_cast<std::int64_t>(every);
+            passage.grains /= static_cast<double>(passage.every);
+        }
+        grains += passage.grains;
     }
     const double most = mostTogetherPerSecond * seconds;
     if (!(grains > most)) return;
     const auto times = std::bit_ceil(static_cast<std::uint64_t>(std::ceil(grains / most)));
-    for (Passage& passage : passages_) passage.every *= static_cast<std::int64_t>(times);
+    for (Passage& passage : std::span{passages_.data(), passageCount_})
+        passage.every *= static_cast<std::int64_t>(times);
 }
 
 void LastingContacts::weigh(Pair& pair, double seconds) const noexcept {

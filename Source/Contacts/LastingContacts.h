@@ -216,7 +216,7 @@ public:
     void reserve() {
         points_.reserve(24);
         pairs_.reserve(24);
-        passages_.reserve(24);
+        passages_.resize(std::max<std::size_t>(passages_.size(), 32));
     }
 
     /// Appends the impacts of the grains that the step's points passed, by point.
@@ -226,14 +226,15 @@ public:
     template <class Maker>
     void collectFor(const StepSpan& span, Maker& maker) {
         follow(span.seconds());
-        if (passages_.empty()) return;
+        if (passageCount_ == 0) return;
         Runs runs;
         runs.seconds = span.seconds();
         runs.backSeconds = 1.5 * runs.seconds;
         runs.perSecond = 1.0 / runs.seconds;
         runs.startNs = span.startNs;
         runs.lengthNs = static_cast<double>(span.endNs - span.startNs);
-        for (const Passage& passage : passages_) pass(passage, span, runs, maker);
+        for (const Passage& passage : std::span{passages_.data(), passageCount_})
+            if (passage.every > 0) pass(passage, span, runs, maker);
         flush(runs, maker);
     }
     void endStep();
@@ -275,13 +276,18 @@ private:
         };
         return isNear(point.onA) && isNear(point.onB) && point.normalNewtonSeconds >= 0.0;
     }
-    struct Passage { // the grains of one surface that one point passes in this step
+    /// Of one surface that one point passes in this step. moveAlong() computes it by vectors.
+    struct Passage {
+        // At first the paths of the last step (not a number: it is not known) and of this one
+        double startMetres, metresPerSecond, metresPerSecond2, endMetres;
+        double loadNewtons, grainMetres, grains; // grains: about so many
+        double fastest;                          // m/s; below 0: it reverses
         Told* told;
         std::int32_t surface; // slot
-        double loadNewtons;
-        SurfaceMotion motion;
-        std::int64_t every;
-        double grains; // about so many
+        std::int64_t every;   // 0: the point is at rest
+        SurfaceMotion motion(double seconds) const noexcept {
+            return {startMetres, metresPerSecond, metresPerSecond2, seconds};
+        }
     };
 
     void compute() {
@@ -305,7 +311,7 @@ private:
     }
     void follow(double seconds);
     template <SurfacePath LastingPoint::*path>
-    [[gnu::always_inline]] double follow(Told& told, std::int32_t surface, double seconds);
+    [[gnu::always_inline]] void follow(Told& told, std::int32_t surface, double seconds);
     void weigh(Pair& pair, double seconds) const noexcept;
     void forgetStep() noexcept;
     /// Where the passage's point was between grains of this surface at the end of the last step, if that is
@@ -340,7 +346,8 @@ private:
     void (*computeFaces_)(LastingContacts&) = nullptr;
     StepMemory<Told> points_;
     StepMemory<Pair> pairs_;
-    std::vector<Passage> passages_;
+    std::vector<Passage> passages_; // so many of them, then what is of no use
+    std::size_t passageCount_ = 0;
     std::uint64_t thinned_ = 0;
 };
 
@@ -374,34 +381,33 @@ inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, 
     told.inGapOf = passage.surface;
     told.revision = table_.revision();
     told.every = passage.every;
-    const SurfaceMotion& motion = passage.motion;
     const GrainGap* const gap = gapBefore(passage);
-    if (gap != nullptr && passage.grains < 0.75 && gap->holds(motion)) { // most slow points
+    if (gap != nullptr && passage.grains < 0.75 && gap->holds(passage.motion(runs.seconds))) { // most slow points
         told.gap = *gap;
         return;
     }
     const LastingPoint& point = told.point;
     const bool isFeltByA = table_.isCamera(point.a);
     const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
-    if (isFeltByA == table_.isCamera(point.b) || motion.turn() < motion.seconds) [[unlikely]]
+    if (isFeltByA == table_.isCamera(point.b) || passage.fastest < 0.0) [[unlikely]]
         return passEach(passage, span, gap, runs, maker);
     if (runs.surface != passage.surface || runs.camera != one) [[unlikely]]
         begin(passage, one, other, runs, maker);
     if (!runs.isUsed) [[unlikely]]
         return passEach(passage, span, gap, runs, maker);
-    const double end = motion.metresAt(motion.seconds);
-    const bool isUp = end > motion.startMetres;
+    const double end = passage.endMetres;
+    const bool isUp = end > passage.startMetres;
     const double sign = isUp ? 1.0 : -1.0;
     const std::int64_t step = isUp ? passage.every : -passage.every;
     double behind = 0.0, ahead = 0.0;
-    std::int64_t index = runs.grains.begin(motion.startMetres, isUp, passage.every, gap, behind, ahead);
+    std::int64_t index = runs.grains.begin(passage.startMetres, isUp, passage.every, gap, behind, ahead);
     if (sign * (end - ahead) >= 0.0) {
         if (runs.runCount == GrainRuns::mostRuns) [[unlikely]]
             flush(runs, maker);
         GrainRuns::Run* run = &runs.runs[runs.runCount++];
-        run->start = motion.startMetres;
-        run->metresPerSecond = motion.metresPerSecond;
-        run->metresPerSecond2 = motion.metresPerSecond2;
+        run->start = passage.startMetres;
+        run->metresPerSecond = passage.metresPerSecond;
+        run->metresPerSecond2 = passage.metresPerSecond2;
         run->sign = sign;
         run->slip = point.slipMetresPerSecond;
         run->newtons = passage.loadNewtons;
@@ -443,7 +449,7 @@ void LastingContacts::passEach(const Passage& passage, const StepSpan& span, con
     flush(runs, maker);
     runs.surface = FixtureTable::none; // the maker may come to have another
     Told& told = *passage.told;
-    const SurfaceMotion motion = passage.motion;
+    const SurfaceMotion motion = passage.motion(span.seconds());
     const LastingPoint& point = told.point;
     const KnownFixture& surface = table_[passage.surface];
     const Texture& texture = surface.values.texture;
