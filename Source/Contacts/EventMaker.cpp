@@ -56,7 +56,8 @@ void EventMaker::addAll(const GrainRuns& of) {
     other_ = FixtureTable::none - 1; // the event's is another
     // which zero is the least depends on their order
     const bool hasZero = of.least[0] * of.least[1] * of.most[0] * of.most[1] == 0.0;
-    if (of.isUsual && !hasZero && events_.push(of, event_)) [[likely]] return made_.add(of.count, of.least, of.most);
+    if (of.isUsual && !hasZero && events_.push(of, event_)) [[likely]]
+        return made_.add(of.count, of.least, of.most);
     for (std::size_t i = 0; i < of.count; ++i) {
         event_.timeNs = of.timeNs[i];
         event_.amplitude = of.amplitude[i];
@@ -230,22 +231,37 @@ bool EventSorter::dropWeakest(double amplitude) noexcept {
 
 void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished) {
     const std::size_t among = leastNewNs_ < beforeNs ? count_ : old_; // none of the new ones is released
+    // By time into as many buckets as there may be events: grains arrive by hundreds per step, evenly
+    // distributed, so each bucket has few.
+    std::int64_t toNs = beforeNs;
+    if (beforeNs == std::numeric_limits<std::int64_t>::max()) { // all
+        toNs = releasedNs_;
+        for (std::size_t i = 0; i < among; ++i) toNs = std::max(toNs, waiting_[place(i)].timeNs);
+    }
+    const std::int64_t fromNs = std::exchange(releasedNs_, toNs);
+    const double sharesPerNs = static_cast<double>(among) / std::max(1.0, static_cast<double>(toNs - fromNs));
+    ends_.assign(among + 2, 0);
     std::size_t end = 0;
-    std::int64_t firstNs = beforeNs, lastNs = std::numeric_limits<std::int64_t>::min();
     Turn *const turns = turns_.data(), *turn = turns;
+    std::uint32_t *const shares = shares_.data(), *const ends = ends_.data(), *share = shares;
     const Waiting* const waiting = waiting_.data();
     for (std::size_t i = 0, mask = mask_, first = first_; i < among; ++i) {
         const Waiting& each = waiting[(first + i) & mask];
         if (each.timeNs >= beforeNs) continue;
-        firstNs = std::min(firstNs, each.timeNs);
-        lastNs = std::max(lastNs, each.timeNs);
         const auto fixture = static_cast<std::uint32_t>(each.fixture) ^ 0x80000000U; // in order as unsigned
         *turn++ = {each.timeNs, static_cast<std::uint64_t>(fixture) << 32U | i};
+        const auto bucket =
+            static_cast<std::int64_t>(static_cast<double>(each.timeNs - fromNs) * sharesPerNs);
+        *share++ = static_cast<std::uint32_t>(std::max<std::int64_t>(0, bucket));
+        ++ends[share[-1] + 1];
         end = i + 1;
     }
     const auto count = static_cast<std::size_t>(turn - turns);
     if (count > 0) {
-        share(count, firstNs, lastNs);
+        for (std::size_t i = 1; i < ends_.size(); ++i) ends[i] += ends[i - 1];
+        Turn* const other = other_.data();
+        for (std::size_t i = 0; i < count; ++i) other[ends[shares[i]]++] = turns[i]; // begins become ends
+        turns_.swap(other_);
         sort(count);
         if (finished.capacity() - finished.size() < count)
             finished.reserve(std::max(finished.size() + count, 2 * finished.capacity()));
@@ -262,25 +278,6 @@ void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& fi
     }
     old_ = count_;
     leastNewNs_ = std::numeric_limits<std::int64_t>::max();
-}
-
-// By time into as many buckets as there are events: grains arrive by hundreds per step, evenly distributed,
-// so each bucket has few.
-void EventSorter::share(std::size_t count, std::int64_t firstNs, std::int64_t lastNs) {
-    constexpr std::size_t many = 16;
-    if (count < many) return;
-    const double sharesPerNs =
-        static_cast<double>(count) / (static_cast<double>(lastNs) - static_cast<double>(firstNs) + 1.0);
-    ends_.assign(count + 2, 0); // rounding may give one bucket more
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto share = static_cast<std::uint32_t>(
-            static_cast<std::int64_t>(static_cast<double>(turns_[i].timeNs - firstNs) * sharesPerNs));
-        shares_[i] = share;
-        ++ends_[share + 1];
-    }
-    for (std::size_t i = 1; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
-    for (std::size_t i = 0; i < count; ++i) other_[ends_[shares_[i]]++] = turns_[i]; // begins become ends
-    turns_.swap(other_);
 }
 
 // Moves each behind those before it: few steps once they are in buckets. Where most have one time, as hits at

@@ -72,7 +72,6 @@ private:
     std::size_t place(std::size_t arrival) const noexcept { return (first_ + arrival) & mask_; }
     [[gnu::noinline]] bool grow() noexcept;      // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
-    void share(std::size_t count, std::int64_t firstNs, std::int64_t lastNs);
     void sort(std::size_t count) noexcept;
     template <class IsLeft>
     void leave(std::size_t count, IsLeft isLeft) noexcept;
@@ -81,7 +80,8 @@ private:
     std::uint64_t drops_ = 0;
     // A ring in order of arrival; its size is a power of two, one more than the mask
     std::size_t first_ = 0, count_ = 0, places_ = 0, mask_ = 0;
-    std::size_t old_ = 0; // those up to the last release; no later one is before
+    std::size_t old_ = 0;         // those up to the last release; no later one is before
+    std::int64_t releasedNs_ = 0; // those before
     std::int64_t leastNewNs_ = std::numeric_limits<std::int64_t>::max();
     std::vector<CollisionEvent> held_;
     std::vector<Waiting> waiting_; // of each held one
@@ -119,8 +119,8 @@ public:
     /// The same for runs of grains. False: they are to be added one by one.
     bool prepare(std::int32_t camera, std::int32_t other, GrainRuns& runs) {
         meet(camera, other);
-        const bool isUsed = !isMuted_ && hasOwnSound_ && modeCount_ == 1 && isAtContact_ && modes_[0].isPlayable &&
-                            runs.startNs >= 0 && runs.startNs < limits::maxTimeNs / 2;
+        const bool isUsed = !isMuted_ && hasOwnSound_ && modeCount_ == 1 && isAtContact_ &&
+                            modes_[0].isPlayable && runs.startNs >= 0 && runs.startNs < limits::maxTimeNs / 2;
         runs.perNewtonSecond = perNewtonSecond_;
         runs.divisor = amplitudeDivisor_;
         runs.gain = gain_;

@@ -112,12 +112,17 @@ private:
         }
     };
     [[gnu::always_inline]] static Vector sum(Vector a, Vector b) noexcept { return {a.x + b.x, a.y + b.y}; }
-    [[gnu::always_inline]] static Vector difference(Vector a, Vector b) noexcept { return {a.x - b.x, a.y - b.y}; }
+    [[gnu::always_inline]] static Vector difference(Vector a, Vector b) noexcept {
+        return {a.x - b.x, a.y - b.y};
+    }
     [[gnu::always_inline]] static Vector scaled(Four s, Vector v) noexcept { return {s * v.x, s * v.y}; }
     [[gnu::always_inline]] static Four dot(Vector a, Vector b) noexcept { return a.x * b.x + a.y * b.y; }
     /// Of a spin and an arm.
-    [[gnu::always_inline]] static Vector crossed(Four spin, Vector arm) noexcept { return {-spin * arm.y, spin * arm.x}; }
-    [[gnu::always_inline]] static Vector velocity(Vector ofCentre, Four spin, Vector centre, Vector at) noexcept {
+    [[gnu::always_inline]] static Vector crossed(Four spin, Vector arm) noexcept {
+        return {-spin * arm.y, spin * arm.x};
+    }
+    [[gnu::always_inline]] static Vector velocity(Vector ofCentre, Four spin, Vector centre,
+                                                  Vector at) noexcept {
         return sum(ofCentre, crossed(spin, difference(at, centre)));
     }
 };

@@ -18,7 +18,7 @@ struct GrainRuns {
     struct alignas(32) Run {
         double start, metresPerSecond, metresPerSecond2, sign; ///< of the motion; sign: of its direction
         double slip, newtons, every, unused;
-        Vector3 point, velocity;
+        std::array<float, 3> point, velocity;
         std::int32_t otherId, unusedToo;
     };
 
@@ -43,7 +43,7 @@ struct GrainRuns {
     // Of each grain, by compute()
     alignas(32) All<std::int64_t> timeNs;
     alignas(32) All<double> newtonSeconds, amplitude, x, y, z; ///< x, y, z: of the field
-    alignas(32) All<std::int64_t> kinds; ///< as ContactKind; a hit: too slow to be felt
+    alignas(32) All<std::int64_t> kinds;                       ///< as ContactKind; a hit: too slow to be felt
     /// Of all places. x, y.
     std::array<double, 2> least, most;
 
@@ -54,7 +54,8 @@ struct GrainRuns {
         return *reinterpret_cast<const Run*>(reinterpret_cast<const char*>(runs.data()) + runAt[grain]);
     }
     /// After compute(): makes events of some of them, like `model` otherwise.
-    void write(std::size_t first, std::size_t last, const CollisionEvent& model, CollisionEvent* to) const noexcept;
+    void write(std::size_t first, std::size_t last, const CollisionEvent& model,
+               CollisionEvent* to) const noexcept;
 };
 
 } // namespace physvib

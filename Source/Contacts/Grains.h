@@ -139,8 +139,8 @@ public:
     /// What the strength of a grain is drawn by, see GrainRuns.
     std::uint64_t nameOf(std::int64_t index) const noexcept { return nameOf(index, 1); }
 
-    /// Where a point that leaves `start` comes first: the index of that grain. `behind` and `ahead` become the
-    /// places between which it is then.
+    /// Where a point that leaves `start` comes first: the index of that grain. `behind` and `ahead` become
+    /// the places between which it is then.
     std::int64_t begin(double start, bool isUp, std::int64_t every, const GrainGap* gap, double& behind,
                        double& ahead) const noexcept {
         if (gap != nullptr && gap->isUp == isUp && gap->fromMetres < start && start < gap->toMetres) {

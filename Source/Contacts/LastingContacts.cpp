@@ -117,6 +117,7 @@ void LastingContacts::computeFaces(LastingContacts& all) {
             const FacePoint& of = all.faces_[first + i];
             const SurfacePath face{moves.metres[i], moves.speed[i]},
                 other = of.isDiscRough ? around(of) : SurfacePath{};
+            if (!isNear(face) || (of.isDiscRough && !isNear(other))) continue;
             all.add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds), moves.slip[i],
                      Vector2{moves.x[i], moves.y[i]},
                      Vector2{moves.xMetresPerSecond[i], moves.yMetresPerSecond[i]},
@@ -132,10 +133,9 @@ inline void LastingContacts::follow(Told& told, std::int32_t surface, double sec
     const double newtons = pairs_[told.pair].steadyShare * told.point.normalNewtonSeconds / seconds;
     if (newtons <= 0.0) return;
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    const SurfacePath to = told.point.*path,
-                      from = told.before != StepMemory<Told>::none
-                                 ? points_.before(told.before).point.*path
-                                 : SurfacePath{unknown, unknown};
+    const SurfacePath to = told.point.*path, from = told.before != StepMemory<Told>::none
+                                                        ? points_.before(told.before).point.*path
+                                                        : SurfacePath{unknown, unknown};
     passages_[passageCount_++] = {from.metres,
                                   from.metresPerSecond,
                                   to.metres,
@@ -170,7 +170,8 @@ void LastingContacts::follow(double seconds) {
             continue;
         }
         if (perSecond > mostPerSecond) {
-            const std::uint64_t every = std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / mostPerSecond)));
+            const std::uint64_t every =
+                std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / mostPerSecond)));
             passage.every = static_cast<std::int64_t>(every);
             passage.grains /= static_cast<double>(passage.every);
         }

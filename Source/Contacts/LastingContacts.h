@@ -201,7 +201,7 @@ public:
     /// The same where the pair's key is known.
     void touch(const LastingPoint& point, std::uint64_t pairsKey) {
         compute();
-        add(point, pairsKey);
+        if (isNear(point.onA) && isNear(point.onB)) add(point, pairsKey);
     }
     /// The same of a point on a face: how it moves is computed later, of four at a time. To be filled in.
     [[gnu::always_inline]] FacePoint& touchFace() {
@@ -270,11 +270,8 @@ private:
         key = (key ^ (key >> 31U)) * 0xBF58476D1CE4E5B9U;
         return key != 0 ? key : 1; // IntegerMap excludes key 0
     }
-    static bool isUsable(const LastingPoint& point) noexcept { // false for NaN
-        const auto isNear = [](const SurfacePath& path) {
-            return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres;
-        };
-        return isNear(point.onA) && isNear(point.onB) && point.normalNewtonSeconds >= 0.0;
+    static bool isNear(const SurfacePath& path) noexcept { // false for NaN
+        return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres;
     }
     /// Of one surface that one point passes in this step. moveAlong() computes it by vectors.
     struct Passage {
@@ -295,7 +292,7 @@ private:
     }
     static void computeFaces(LastingContacts& of);
     [[gnu::always_inline]] void add(const LastingPoint& point, std::uint64_t pairsKey) {
-        if (points_.count() == mostPoints || !isUsable(point)) return;
+        if (points_.count() == mostPoints || !(point.normalNewtonSeconds >= 0.0)) return;
         const std::size_t known = points_.count();
         const std::int32_t at = points_.tell(keyOf(pairsKey, point.feature));
         if (points_.count() == known) return;
@@ -382,7 +379,8 @@ inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, 
     told.revision = table_.revision();
     told.every = passage.every;
     const GrainGap* const gap = gapBefore(passage);
-    if (gap != nullptr && passage.grains < 0.75 && gap->holds(passage.motion(runs.seconds))) { // most slow points
+    if (gap != nullptr && passage.grains < 0.75 && gap->holds(passage.motion(runs.seconds))) { // most slow
+                                                                                               // points
         told.gap = *gap;
         return;
     }
@@ -412,8 +410,8 @@ inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, 
         run->slip = point.slipMetresPerSecond;
         run->newtons = passage.loadNewtons;
         run->every = static_cast<double>(passage.every);
-        run->point = point.point;
-        run->velocity = point.metresPerSecond;
+        run->point = {point.point.x, point.point.y, point.point.z};
+        run->velocity = {point.metresPerSecond.x, point.metresPerSecond.y, point.metresPerSecond.z};
         run->otherId = maker.idOf(other);
         const std::int64_t first = index;
         std::size_t count = runs.count;
