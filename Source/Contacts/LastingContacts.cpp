@@ -10,7 +10,6 @@
 #include <immintrin.h>
 #endif
 
-// The same once for any processor of this kind, and once for what nearly all have.
 namespace physvib {
 /// FaceRuns as they are used.
 struct FaceMoves {
@@ -18,12 +17,10 @@ struct FaceMoves {
     std::array<float, faceLanes> x, y, xMetresPerSecond, yMetresPerSecond;
 };
 } // namespace physvib
+
+// The same once for any processor, and once for what nearly all have.
 namespace physvib::plain {
-#ifdef __SSE2__
-#define LANES 2
-#else
 #define LANES 1
-#endif
 #include "Contacts/GrainLanes.inc"
 #undef LANES
 } // namespace physvib::plain
@@ -44,39 +41,21 @@ namespace physvib::wide {
 #else
 #pragma GCC pop_options
 #endif
+#define PHYSVIB_LANES(name) (isWide ? wide::name : plain::name)
+#else
+#define PHYSVIB_LANES(name) plain::name
 #endif
 
 namespace physvib {
 
-namespace {
 #ifdef __SSE2__
-const bool isWide = __builtin_cpu_supports("avx2") != 0;
-void moveFaces(const FacePoint* rows, FaceMoves& moves) noexcept {
-    isWide ? wide::moveFaces(rows, moves) : plain::moveFaces(rows, moves);
-}
-void moveAlong(double* rows, std::size_t bytes, std::size_t count, double seconds) noexcept {
-    isWide ? wide::moveAlong(rows, bytes, count, seconds) : plain::moveAlong(rows, bytes, count, seconds);
-}
-#else
-void moveFaces(const FacePoint* rows, FaceMoves& moves) noexcept { plain::moveFaces(rows, moves); }
-void moveAlong(double* rows, std::size_t bytes, std::size_t count, double seconds) noexcept {
-    plain::moveAlong(rows, bytes, count, seconds);
-}
+static const bool isWide = __builtin_cpu_supports("avx2") != 0;
 #endif
-} // namespace
-#ifdef __SSE2__
-void GrainRuns::compute() noexcept { isWide ? wide::compute(*this) : plain::compute(*this); }
+void GrainRuns::compute() noexcept { PHYSVIB_LANES(compute)(*this); }
 void GrainRuns::write(std::size_t first, std::size_t last, const CollisionEvent& model,
                       CollisionEvent* to) const noexcept {
-    isWide ? wide::write(*this, first, last, model, to) : plain::write(*this, first, last, model, to);
+    PHYSVIB_LANES(write)(*this, first, last, model, to);
 }
-#else
-void GrainRuns::compute() noexcept { plain::compute(*this); }
-void GrainRuns::write(std::size_t first, std::size_t last, const CollisionEvent& model,
-                      CollisionEvent* to) const noexcept {
-    plain::write(*this, first, last, model, to);
-}
-#endif
 
 LastingContacts::LastingContacts(const FixtureTable& table)
     : table_{table} {}
@@ -112,7 +91,7 @@ void LastingContacts::computeFaces(LastingContacts& all) {
     // of rows behind the last nothing is used
     FaceMoves moves;
     for (std::size_t first = 0; first < count; first += faceLanes) {
-        moveFaces(&all.faces_[first], moves);
+        PHYSVIB_LANES(moveFaces)(&all.faces_[first], moves);
         for (std::size_t i = 0; i < std::min(faceLanes, count - first); ++i) {
             const FacePoint& of = all.faces_[first + i];
             const SurfacePath face{moves.metres[i], moves.speed[i]},
@@ -161,7 +140,7 @@ void LastingContacts::follow(double seconds) {
         if (table_.isRough(told.point.a)) follow<&LastingPoint::onA>(told, told.point.a, seconds);
         if (table_.isRough(told.point.b)) follow<&LastingPoint::onB>(told, told.point.b, seconds);
     }
-    moveAlong(&passages_.data()->startMetres, sizeof(Passage), passageCount_, seconds);
+    PHYSVIB_LANES(moveAlong)(&passages_.data()->startMetres, sizeof(Passage), passageCount_, seconds);
     double grains = 0.0;
     for (Passage& passage : std::span{passages_.data(), passageCount_}) {
         const double fastest = std::abs(passage.fastest), perSecond = fastest / passage.grainMetres;
