@@ -132,6 +132,7 @@ public:
         }
     }
 
+    /// Sets what runs over these need to know of them.
     void describe(GrainRuns& runs) const noexcept {
         runs.leastStrength = isRandom_ ? GrainChance::leastStrength : 1.0;
         runs.strengthRange = isRandom_ ? GrainChance::strengthRange : 0.0;
