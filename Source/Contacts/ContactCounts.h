@@ -21,6 +21,11 @@ struct PlacesMade {
     double leastX = std::numeric_limits<double>::infinity(), leastY = leastX, mostX = -leastX,
            mostY = -leastX;
 
+    void add(std::size_t more, std::array<double, 2> least, std::array<double, 2> most) noexcept {
+        count += more - 2;
+        add(least[0], least[1]);
+        add(most[0], most[1]);
+    }
     void add(double x, double y) noexcept {
         ++count;
         leastX = std::min(leastX, x);

@@ -52,6 +52,25 @@ void EventMaker::addModesOf(const SmallImpact& impact) {
     }
 }
 
+void EventMaker::addAll(const GrainRuns& of) {
+    other_ = FixtureTable::none - 1; // the event's is another
+    // which zero is the least depends on their order
+    const bool hasZero = of.least[0] * of.least[1] * of.most[0] * of.most[1] == 0.0;
+    if (of.isUsual && !hasZero && events_.push(of, event_)) [[likely]]
+        return made_.add(of.count, of.least, of.most);
+    for (std::size_t i = 0; i < of.count; ++i) {
+        event_.timeNs = of.timeNs[i];
+        event_.amplitude = of.amplitude[i];
+        event_.x = of.x[i];
+        event_.y = of.y[i];
+        event_.z = of.z[i];
+        event_.source.other = of.runOf(i).otherId;
+        event_.source.impulseNewtonSeconds = of.newtonSeconds[i];
+        event_.source.kind = static_cast<ContactKind>(of.kinds[i]);
+        if (event_.source.kind != ContactKind::hit) send(true);
+    }
+}
+
 void EventMaker::setSource(std::int32_t camera) {
     camera_ = camera;
     hasMet_ = false;
@@ -169,9 +188,24 @@ bool EventSorter::grow() noexcept {
     return true;
 }
 
+bool EventSorter::push(const GrainRuns& grains, const CollisionEvent& model) noexcept {
+    while (count_ + grains.count > places_)
+        if (!grow()) return false;
+    leastNewNs_ = std::min(leastNewNs_, grains.startNs);
+    for (std::size_t i = 0; i < grains.count;) { // to the end of the ring, and from its beginning
+        const std::size_t at = place(count_), end = i + std::min(grains.count - i, mask_ + 1 - at);
+        grains.write(i, end, model, held_.data() + at);
+        count_ += end - i;
+        for (Waiting* to = waiting_.data() + at; i < end; ++i, ++to)
+            *to = {grains.timeNs[i], model.source.fixture, grains.runOf(i).otherId};
+    }
+    return true;
+}
+
 // Those that stay move behind the last one that leaves: of grains none has to.
 template <class IsLeft>
 void EventSorter::leave(std::size_t count, IsLeft isLeft) noexcept {
+    leastNewNs_ = std::numeric_limits<std::int64_t>::min(); // which are new is not known any more
     std::size_t to = count;
     for (std::size_t i = count; i-- > 0;) {
         if (isLeft(waiting_[place(i)])) continue;
@@ -196,43 +230,54 @@ bool EventSorter::dropWeakest(double amplitude) noexcept {
 }
 
 void EventSorter::release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished) {
-    std::size_t count = 0, end = 0;
-    std::int64_t firstNs = beforeNs, lastNs = std::numeric_limits<std::int64_t>::min();
-    for (std::size_t i = 0; i < count_; ++i) {
-        const Waiting& each = waiting_[place(i)];
+    const std::size_t among = leastNewNs_ < beforeNs ? count_ : old_; // none of the new ones is released
+    // By time into as many buckets as there may be events: grains arrive by hundreds per step, evenly
+    // distributed, so each bucket has few.
+    std::int64_t toNs = beforeNs;
+    if (beforeNs == std::numeric_limits<std::int64_t>::max()) { // all
+        toNs = releasedNs_;
+        for (std::size_t i = 0; i < among; ++i) toNs = std::max(toNs, waiting_[place(i)].timeNs);
+    }
+    const std::int64_t fromNs = std::exchange(releasedNs_, toNs);
+    const double sharesPerNs = static_cast<double>(among) / std::max(1.0, static_cast<double>(toNs - fromNs));
+    ends_.assign(among + 2, 0);
+    std::size_t end = 0;
+    Turn *const turns = turns_.data(), *turn = turns;
+    std::uint32_t *const shares = shares_.data(), *const ends = ends_.data(), *share = shares;
+    const Waiting* const waiting = waiting_.data();
+    for (std::size_t i = 0, mask = mask_, first = first_; i < among; ++i) {
+        const Waiting& each = waiting[(first + i) & mask];
         if (each.timeNs >= beforeNs) continue;
-        firstNs = std::min(firstNs, each.timeNs);
-        lastNs = std::max(lastNs, each.timeNs);
         const auto fixture = static_cast<std::uint32_t>(each.fixture) ^ 0x80000000U; // in order as unsigned
-        turns_[count++] = {each.timeNs, static_cast<std::uint64_t>(fixture) << 32U | i};
+        *turn++ = {each.timeNs, static_cast<std::uint64_t>(fixture) << 32U | i};
+        const auto bucket =
+            static_cast<std::int64_t>(static_cast<double>(each.timeNs - fromNs) * sharesPerNs);
+        *share++ = static_cast<std::uint32_t>(std::max<std::int64_t>(0, bucket));
+        ++ends[share[-1] + 1];
         end = i + 1;
     }
-    if (count == 0) return;
-    share(count, firstNs, lastNs);
-    sort(count);
-    for (std::size_t i = 0; i < count; ++i) finished.push_back(held_[place(turns_[i].rank & 0xFFFFFFFFU)]);
-    if (count < end) return leave(end, [beforeNs](const Waiting& each) { return each.timeNs < beforeNs; });
-    first_ = place(count);
-    count_ -= count;
-}
-
-// By time into as many buckets as there are events: grains arrive by hundreds per step, evenly distributed,
-// so each bucket has few.
-void EventSorter::share(std::size_t count, std::int64_t firstNs, std::int64_t lastNs) {
-    constexpr std::size_t many = 16;
-    if (count < many) return;
-    const double sharesPerNs =
-        static_cast<double>(count) / (static_cast<double>(lastNs) - static_cast<double>(firstNs) + 1.0);
-    ends_.assign(count + 2, 0); // rounding may give one bucket more
-    for (std::size_t i = 0; i < count; ++i) {
-        const auto share = static_cast<std::uint32_t>(
-            static_cast<std::int64_t>(static_cast<double>(turns_[i].timeNs - firstNs) * sharesPerNs));
-        shares_[i] = share;
-        ++ends_[share + 1];
+    const auto count = static_cast<std::size_t>(turn - turns);
+    if (count > 0) {
+        for (std::size_t i = 1; i < ends_.size(); ++i) ends[i] += ends[i - 1];
+        Turn* const other = other_.data();
+        for (std::size_t i = 0; i < count; ++i) other[ends[shares[i]]++] = turns[i]; // begins become ends
+        turns_.swap(other_);
+        sort(count);
+        if (finished.capacity() - finished.size() < count)
+            finished.reserve(std::max(finished.size() + count, 2 * finished.capacity()));
+        const CollisionEvent* const held = held_.data();
+        const std::size_t first = first_, mask = mask_;
+        for (const Turn& each : std::span{turns_.data(), count})
+            finished.push_back(held[(first + (each.rank & 0xFFFFFFFFU)) & mask]);
+        if (count < end) {
+            leave(end, [beforeNs](const Waiting& each) { return each.timeNs < beforeNs; });
+        } else {
+            first_ = place(count);
+            count_ -= count;
+        }
     }
-    for (std::size_t i = 1; i < ends_.size(); ++i) ends_[i] += ends_[i - 1];
-    for (std::size_t i = 0; i < count; ++i) other_[ends_[shares_[i]]++] = turns_[i]; // begins become ends
-    turns_.swap(other_);
+    old_ = count_;
+    leastNewNs_ = std::numeric_limits<std::int64_t>::max();
 }
 
 // Moves each behind those before it: few steps once they are in buckets. Where most have one time, as hits at

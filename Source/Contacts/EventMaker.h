@@ -3,6 +3,7 @@
 #pragma once
 #include "Contacts/ContactCounts.h"
 #include "Contacts/FixtureTable.h"
+#include "Contacts/GrainRuns.h"
 #include "Contacts/HapticFixture.h"
 #include "Contacts/Impact.h"
 #include "Contacts/ImpactSettings.h"
@@ -33,11 +34,15 @@ public:
     /// without haptic values have no id: as the other one they are released as -1.
     [[gnu::always_inline]] void push(const CollisionEvent& event) noexcept {
         if (count_ == places_ && !grow() && !dropWeakest(event.amplitude)) return;
+        leastNewNs_ = std::min(leastNewNs_, event.timeNs);
         const std::size_t at = place(count_++);
         held_[at] = event;
         held_[at].source.other = std::max(event.source.other, -1);
         waiting_[at] = {event.timeNs, event.source.fixture, event.source.other};
     }
+
+    /// Adds all of these, like `model` otherwise. False, and nothing is done: there is no room.
+    bool push(const GrainRuns& grains, const CollisionEvent& model) noexcept;
 
     /// Moves all events before `beforeNs` to the end of `finished`.
     void release(std::int64_t beforeNs, std::vector<CollisionEvent>& finished);
@@ -67,7 +72,6 @@ private:
     std::size_t place(std::size_t arrival) const noexcept { return (first_ + arrival) & mask_; }
     [[gnu::noinline]] bool grow() noexcept;      // false: full, or no memory
     bool dropWeakest(double amplitude) noexcept; // only an event weaker than `amplitude`
-    void share(std::size_t count, std::int64_t firstNs, std::int64_t lastNs);
     void sort(std::size_t count) noexcept;
     template <class IsLeft>
     void leave(std::size_t count, IsLeft isLeft) noexcept;
@@ -76,6 +80,9 @@ private:
     std::uint64_t drops_ = 0;
     // A ring in order of arrival; its size is a power of two, one more than the mask
     std::size_t first_ = 0, count_ = 0, places_ = 0, mask_ = 0;
+    std::size_t old_ = 0;         // those up to the last release; no later one is before
+    std::int64_t releasedNs_ = 0; // those before
+    std::int64_t leastNewNs_ = std::numeric_limits<std::int64_t>::max();
     std::vector<CollisionEvent> held_;
     std::vector<Waiting> waiting_; // of each held one
     // Of those being released, as long as held_: their buckets in time
@@ -109,6 +116,23 @@ public:
         if (camera != camera_) setSource(camera);
         if (!isMuted_ && (!hasMet_ || other != other_)) setPartner(other);
     }
+    /// The same for runs of grains. False: they are to be added one by one.
+    bool prepare(std::int32_t camera, std::int32_t other, GrainRuns& runs) {
+        meet(camera, other);
+        const bool isUsed = !isMuted_ && hasOwnSound_ && modeCount_ == 1 && isAtContact_ &&
+                            modes_[0].isPlayable && runs.startNs >= 0 && runs.startNs < limits::maxTimeNs / 2;
+        runs.perNewtonSecond = perNewtonSecond_;
+        runs.divisor = amplitudeDivisor_;
+        runs.gain = gain_;
+        runs.pairGain = pairGain_;
+        runs.relativeAmplitude = modes_[0].relativeAmplitude;
+        runs.origin = settings_.fieldOrigin;
+        runs.cosine = cos_;
+        runs.sine = sin_;
+        return isUsed;
+    }
+    std::int32_t idOf(std::int32_t other) const noexcept { return table_[other].id; }
+    void addAll(const GrainRuns& of);
     void add(const SmallImpact& impact) {
         if (isMuted_ || modeCount_ != 1) [[unlikely]]
             return addModesOf(impact);
@@ -132,10 +156,13 @@ private:
         event_.source.impulseNewtonSeconds = impact.newtonSeconds;
         event_.source.kind = impact.kind;
         event_.amplitude = mode.relativeAmplitude * amplitude;
+        send(mode.isPlayable);
+    }
+    [[gnu::always_inline]] void send(bool isPlayable) noexcept {
         // The rest of isPlayable() is the mode's. The sum is finite if its parts are: these are no larger
         // than floats.
-        if (!(impact.timeNs >= 0 && impact.timeNs <= limits::maxTimeNs &&
-              std::isfinite(event_.x + event_.y + event_.z) && mode.isPlayable &&
+        if (!(event_.timeNs >= 0 && event_.timeNs <= limits::maxTimeNs &&
+              std::isfinite(event_.x + event_.y + event_.z) && isPlayable &&
               std::abs(event_.amplitude) <= limits::maxAmplitude)) [[unlikely]] {
             ++counts_.unplayable;
             return;

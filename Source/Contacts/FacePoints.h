@@ -37,7 +37,7 @@ inline float laneOf(Four of, std::size_t lane) noexcept { return of[lane]; }
 
 struct FaceColumns {
     Four a, b, c, d;
-    FaceColumns(const FacePoint* rows, std::size_t group) noexcept {
+    [[gnu::always_inline]] FaceColumns(const FacePoint* rows, std::size_t group) noexcept {
         const auto row = [rows, group](std::size_t i) {
             Four of;
             std::memcpy(&of, reinterpret_cast<const char*>(rows + i) + group * sizeof of, sizeof of);
@@ -78,7 +78,7 @@ struct FaceRuns {
     Four slip;              ///< of one surface relative to the other, m/s
 
     /// Every lane has the operations of a single point in their order: the same bits.
-    explicit FaceRuns(const FacePoint* rows) noexcept {
+    [[gnu::always_inline]] explicit FaceRuns(const FacePoint* rows) noexcept {
         const FaceColumns touch0{rows, 0}, touch1{rows, 1}, touch2{rows, 2}, touch3{rows, 3},
             motion0{rows, 4}, motion1{rows, 5}, spins{rows, 6};
         const Turn face{touch0.c, touch0.d}, other{touch1.c, touch1.d};
@@ -104,20 +104,25 @@ struct FaceRuns {
 private:
     struct Turn {
         Four sine, cosine;
-        Vector turned(Vector v) const noexcept {
+        [[gnu::always_inline]] Vector turned(Vector v) const noexcept {
             return {cosine * v.x - sine * v.y, sine * v.x + cosine * v.y};
         }
-        Vector turnedBack(Vector v) const noexcept {
+        [[gnu::always_inline]] Vector turnedBack(Vector v) const noexcept {
             return {cosine * v.x + sine * v.y, -sine * v.x + cosine * v.y};
         }
     };
-    static Vector sum(Vector a, Vector b) noexcept { return {a.x + b.x, a.y + b.y}; }
-    static Vector difference(Vector a, Vector b) noexcept { return {a.x - b.x, a.y - b.y}; }
-    static Vector scaled(Four s, Vector v) noexcept { return {s * v.x, s * v.y}; }
-    static Four dot(Vector a, Vector b) noexcept { return a.x * b.x + a.y * b.y; }
+    [[gnu::always_inline]] static Vector sum(Vector a, Vector b) noexcept { return {a.x + b.x, a.y + b.y}; }
+    [[gnu::always_inline]] static Vector difference(Vector a, Vector b) noexcept {
+        return {a.x - b.x, a.y - b.y};
+    }
+    [[gnu::always_inline]] static Vector scaled(Four s, Vector v) noexcept { return {s * v.x, s * v.y}; }
+    [[gnu::always_inline]] static Four dot(Vector a, Vector b) noexcept { return a.x * b.x + a.y * b.y; }
     /// Of a spin and an arm.
-    static Vector crossed(Four spin, Vector arm) noexcept { return {-spin * arm.y, spin * arm.x}; }
-    static Vector velocity(Vector ofCentre, Four spin, Vector centre, Vector at) noexcept {
+    [[gnu::always_inline]] static Vector crossed(Four spin, Vector arm) noexcept {
+        return {-spin * arm.y, spin * arm.x};
+    }
+    [[gnu::always_inline]] static Vector velocity(Vector ofCentre, Four spin, Vector centre,
+                                                  Vector at) noexcept {
         return sum(ofCentre, crossed(spin, difference(at, centre)));
     }
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Surface roughness as grains: their places and strengths along a surface, the same at each pass.
 #pragma once
+#include "Contacts/GrainRuns.h"
 #include "Core/Units.h"
 #include <algorithm>
 #include <cmath>
@@ -32,9 +33,9 @@ struct Texture {
 /// Impulse of one grain in N s, for a load in N and the speed in m/s at which it is passed. The pressing mass
 /// (load / g) is lifted along a slope of 10 % of the roughness, so the impulse is proportional to both. Any
 /// thread.
+constexpr double grainSlope = 0.1;
 constexpr double grainImpulse(double roughness, double loadNewtons, double metresPerSecond) noexcept {
-    constexpr double slope = 0.1;
-    return slope * roughness * loadNewtons / standardGravity * metresPerSecond;
+    return grainSlope * roughness * loadNewtons / standardGravity * metresPerSecond;
 }
 
 /// The error of a value, with what was expected; empty if all are valid. Any thread.
@@ -131,11 +132,36 @@ public:
         }
     }
 
+    /// Sets what runs over these need to know of them.
+    void describe(GrainRuns& runs) const noexcept {
+        runs.leastStrength = isRandom_ ? GrainChance::leastStrength : 1.0;
+        runs.strengthRange = isRandom_ ? GrainChance::strengthRange : 0.0;
+    }
+    /// What the strength of a grain is drawn by, see GrainRuns.
+    std::uint64_t nameOf(std::int64_t index) const noexcept { return nameOf(index, 1); }
+
+    /// Where a point that leaves `start` comes first: the index of that grain. `behind` and `ahead` become
+    /// the places between which it is then.
+    std::int64_t begin(double start, bool isUp, std::int64_t every, const GrainGap* gap, double& behind,
+                       double& ahead) const noexcept {
+        if (gap != nullptr && gap->isUp == isUp && gap->fromMetres < start && start < gap->toMetres) {
+            behind = isUp ? gap->fromMetres : gap->toMetres;
+            ahead = isUp ? gap->toMetres : gap->fromMetres;
+            return gap->next;
+        }
+        behind = start;
+        const Grain grain = next(start, isUp, every, behind);
+        ahead = grain.metres;
+        return grain.index;
+    }
+
 private:
+    std::uint64_t nameOf(std::int64_t index, std::uint64_t which) const noexcept {
+        return (static_cast<std::uint64_t>(index) + 1U) * 0x9E3779B97F4A7C15U + (seed_ + which * seedFactor);
+    }
     /// 0 to 1 (SplitMix64's finaliser; Steele, Lea, Flood 2014).
     double chance(std::int64_t index, std::uint64_t which) const noexcept {
-        std::uint64_t z = (static_cast<std::uint64_t>(index) + 1U) * 0x9E3779B97F4A7C15U;
-        z += seed_ + which * seedFactor;
+        std::uint64_t z = nameOf(index, which);
         z = (z ^ (z >> 30U)) * 0xBF58476D1CE4E5B9U;
         z = (z ^ (z >> 27U)) * 0x94D049BB133111EBU;
         z ^= z >> 31U;
@@ -170,14 +196,9 @@ private:
         const double start = motion.metresAt(from), end = motion.metresAt(to), speed = motion.speedAt(from);
         const bool isUp = end > start;
         const double sign = isUp ? 1.0 : -1.0;
-        double behind = start;
+        double behind = 0.0;
         Grain grain;
-        if (gap != nullptr && gap->isUp == isUp && gap->fromMetres < start && start < gap->toMetres) {
-            behind = isUp ? gap->fromMetres : gap->toMetres;
-            grain = {gap->next, isUp ? gap->toMetres : gap->fromMetres};
-        } else {
-            grain = next(start, isUp, every, behind);
-        }
+        grain.index = begin(start, isUp, every, gap, behind, grain.metres);
         for (; sign * (end - grain.metres) >= 0.0; grain = at(grain.index + (isUp ? every : -every))) {
             behind = grain.metres;
             const double far = grain.metres - start;

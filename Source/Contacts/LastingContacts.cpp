@@ -4,35 +4,58 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <utility>
+#ifdef __SSE2__
+#include <immintrin.h>
+#endif
+
+namespace physvib {
+/// FaceRuns as they are used.
+struct FaceMoves {
+    std::array<double, faceLanes> metres, speed, slip;
+    std::array<float, faceLanes> x, y, xMetresPerSecond, yMetresPerSecond;
+};
+} // namespace physvib
+
+// The same once for any processor, and once for what nearly all have.
+namespace physvib::plain {
+#define LANES 1
+#include "Contacts/GrainLanes.inc"
+#undef LANES
+} // namespace physvib::plain
+#ifdef __SSE2__
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#endif
+namespace physvib::wide {
+#define LANES 4
+#include "Contacts/GrainLanes.inc"
+#undef LANES
+} // namespace physvib::wide
+#ifdef __clang__
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#define PHYSVIB_LANES(name) (isWide ? wide::name : plain::name)
+#else
+#define PHYSVIB_LANES(name) plain::name
+#endif
 
 namespace physvib {
 
-namespace {
-
-SurfaceMotion steady(SurfacePath path, double seconds) noexcept {
-    // Half a step's change of speed behind the engine's path, see LastingContacts.h. A new point is treated
-    // as if it had arrived at this speed.
-    return {path.metres - 1.5 * path.metresPerSecond * seconds, path.metresPerSecond, 0.0, seconds};
+#ifdef __SSE2__
+static const bool isWide = __builtin_cpu_supports("avx2") != 0;
+#endif
+void GrainRuns::compute() noexcept { PHYSVIB_LANES(compute)(*this); }
+void GrainRuns::write(std::size_t first, std::size_t last, const CollisionEvent& model,
+                      CollisionEvent* to) const noexcept {
+    PHYSVIB_LANES(write)(*this, first, last, model, to);
 }
-
-bool hasJumped(SurfacePath from, SurfacePath to, double seconds) noexcept {
-    const double gone = to.metresPerSecond * seconds;
-    return std::abs(to.metres - from.metres - gone) > 0.5 * std::abs(gone) + 1.0e-3;
-}
-
-/// Motion within a step, from the last path to the present one.
-SurfaceMotion between(SurfacePath from, SurfacePath to, double seconds) noexcept {
-    SurfaceMotion motion;
-    motion.seconds = seconds;
-    motion.startMetres = from.metres - 0.5 * from.metresPerSecond * seconds;
-    motion.metresPerSecond2 = (to.metresPerSecond - from.metresPerSecond) / seconds;
-    motion.metresPerSecond = (to.metres - 0.5 * to.metresPerSecond * seconds - motion.startMetres) / seconds -
-                             0.5 * motion.metresPerSecond2 * seconds;
-    return motion;
-}
-
-} // namespace
 
 LastingContacts::LastingContacts(const FixtureTable& table)
     : table_{table} {}
@@ -42,6 +65,9 @@ void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts
         std::vector<Impact>& impacts;
         std::int32_t camera = FixtureTable::none, other = FixtureTable::none;
         void meet(std::int32_t one, std::int32_t two) noexcept { camera = one, other = two; }
+        static bool prepare(std::int32_t, std::int32_t, GrainRuns&) noexcept { return false; }
+        static std::int32_t idOf(std::int32_t) noexcept { return FixtureTable::none; }
+        static void addAll(GrainRuns&) noexcept {}
         void add(const Impact& of) { impacts.push_back(of); }
         void add(const SmallImpact& of) {
             add({camera, other, of.timeNs, of.newtonSeconds, of.point, of.kind});
@@ -63,62 +89,78 @@ SurfacePath around(const FacePoint& of) noexcept {
 void LastingContacts::computeFaces(LastingContacts& all) {
     const std::size_t count = std::exchange(all.faceCount_, 0);
     // of rows behind the last nothing is used
+    FaceMoves moves;
     for (std::size_t first = 0; first < count; first += faceLanes) {
-        const FaceRuns runs{&all.faces_[first]};
+        PHYSVIB_LANES(moveFaces)(&all.faces_[first], moves);
         for (std::size_t i = 0; i < std::min(faceLanes, count - first); ++i) {
             const FacePoint& of = all.faces_[first + i];
-            const SurfacePath face{static_cast<double>(laneOf(runs.metres, i)),
-                                   static_cast<double>(laneOf(runs.speed, i))},
+            const SurfacePath face{moves.metres[i], moves.speed[i]},
                 other = of.isDiscRough ? around(of) : SurfacePath{};
-            all.add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds),
-                     static_cast<double>(laneOf(runs.slip, i)),
-                     Vector2{laneOf(runs.point.x, i), laneOf(runs.point.y, i)},
-                     Vector2{laneOf(runs.metresPerSecond.x, i), laneOf(runs.metresPerSecond.y, i)},
+            if (!isNear(face) || (of.isDiscRough && !isNear(other))) continue;
+            all.add({of.a, of.b, of.feature, static_cast<double>(of.normalNewtonSeconds), moves.slip[i],
+                     Vector2{moves.x[i], moves.y[i]},
+                     Vector2{moves.xMetresPerSecond[i], moves.yMetresPerSecond[i]},
                      of.isTurned ? other : face, of.isTurned ? face : other},
                     of.pairsKey);
         }
     }
 }
 
-/// Adds the point's passage along a surface, and returns how many grains that is.
+/// Adds the point's passage along a surface.
 template <SurfacePath LastingPoint::*path>
-inline double LastingContacts::follow(Told& told, std::int32_t surface, double seconds) {
+inline void LastingContacts::follow(Told& told, std::int32_t surface, double seconds) {
     const double newtons = pairs_[told.pair].steadyShare * told.point.normalNewtonSeconds / seconds;
-    if (newtons <= 0.0) return 0.0;
-    const SurfacePath to = told.point.*path;
-    const SurfacePath* const from =
-        told.before != StepMemory<Told>::none ? &(points_.before(told.before).point.*path) : nullptr;
-    const SurfaceMotion motion =
-        from != nullptr && !hasJumped(*from, to, seconds) ? between(*from, to, seconds) : steady(to, seconds);
-    const double fastest = std::max(std::abs(motion.metresPerSecond), std::abs(motion.speedAt(seconds)));
-    if (fastest < leastMetresPerSecond) return 0.0;
-    const double grainMetres = table_[surface].values.texture.grainMetres, perSecond = fastest / grainMetres;
-    std::int64_t every = 1;
-    if (perSecond > mostPerSecond)
-        every = static_cast<std::int64_t>(
-            std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / mostPerSecond))));
-    const double grains =
-        std::abs(motion.metresAt(seconds) - motion.startMetres) / grainMetres / static_cast<double>(every);
-    passages_.push_back({&told, surface, newtons, motion, every, grains});
-    return grains;
+    if (newtons <= 0.0) return;
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const SurfacePath to = told.point.*path, from = told.before != StepMemory<Told>::none
+                                                        ? points_.before(told.before).point.*path
+                                                        : SurfacePath{unknown, unknown};
+    passages_[passageCount_++] = {from.metres,
+                                  from.metresPerSecond,
+                                  to.metres,
+                                  to.metresPerSecond,
+                                  newtons,
+                                  table_[surface].values.texture.grainMetres,
+                                  0.0,
+                                  0.0,
+                                  &told,
+                                  surface,
+                                  1};
 }
 
 // What the step's points pass, thinned together.
 void LastingContacts::follow(double seconds) {
-    passages_.clear();
+    passageCount_ = 0;
     compute();
     if (!hasHeard()) return;
     if (!(seconds > 0.0) || seconds > longestStepSeconds) return forgetStep();
     for (Pair& pair : pairs_.now()) weigh(pair, seconds);
-    double grains = 0.0;
+    if (const std::size_t most = 2 * points_.count() + 3; passages_.size() < most) passages_.resize(most);
     for (Told& told : points_.now()) {
-        if (table_.isRough(told.point.a)) grains += follow<&LastingPoint::onA>(told, told.point.a, seconds);
-        if (table_.isRough(told.point.b)) grains += follow<&LastingPoint::onB>(told, told.point.b, seconds);
+        if (table_.isRough(told.point.a)) follow<&LastingPoint::onA>(told, told.point.a, seconds);
+        if (table_.isRough(told.point.b)) follow<&LastingPoint::onB>(told, told.point.b, seconds);
+    }
+    PHYSVIB_LANES(moveAlong)(&passages_.data()->startMetres, sizeof(Passage), passageCount_, seconds);
+    double grains = 0.0;
+    for (Passage& passage : std::span{passages_.data(), passageCount_}) {
+        const double fastest = std::abs(passage.fastest), perSecond = fastest / passage.grainMetres;
+        if (fastest < leastMetresPerSecond) {
+            passage.every = 0;
+            continue;
+        }
+        if (perSecond > mostPerSecond) {
+            const std::uint64_t every =
+                std::bit_ceil(static_cast<std::uint64_t>(std::ceil(perSecond / mostPerSecond)));
+            passage.every = static_cast<std::int64_t>(every);
+            passage.grains /= static_cast<double>(passage.every);
+        }
+        grains += passage.grains;
     }
     const double most = mostTogetherPerSecond * seconds;
     if (!(grains > most)) return;
     const auto times = std::bit_ceil(static_cast<std::uint64_t>(std::ceil(grains / most)));
-    for (Passage& passage : passages_) passage.every *= static_cast<std::int64_t>(times);
+    for (Passage& passage : std::span{passages_.data(), passageCount_})
+        passage.every *= static_cast<std::int64_t>(times);
 }
 
 void LastingContacts::weigh(Pair& pair, double seconds) const noexcept {

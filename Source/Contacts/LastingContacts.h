@@ -3,6 +3,7 @@
 #pragma once
 #include "Contacts/FacePoints.h"
 #include "Contacts/FixtureTable.h"
+#include "Contacts/GrainRuns.h"
 #include "Contacts/Grains.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
@@ -200,7 +201,7 @@ public:
     /// The same where the pair's key is known.
     void touch(const LastingPoint& point, std::uint64_t pairsKey) {
         compute();
-        add(point, pairsKey);
+        if (isNear(point.onA) && isNear(point.onB)) add(point, pairsKey);
     }
     /// The same of a point on a face: how it moves is computed later, of four at a time. To be filled in.
     [[gnu::always_inline]] FacePoint& touchFace() {
@@ -215,7 +216,7 @@ public:
     void reserve() {
         points_.reserve(24);
         pairs_.reserve(24);
-        passages_.reserve(24);
+        passages_.resize(std::max<std::size_t>(passages_.size(), 32));
     }
 
     /// Appends the impacts of the grains that the step's points passed, by point.
@@ -225,7 +226,16 @@ public:
     template <class Maker>
     void collectFor(const StepSpan& span, Maker& maker) {
         follow(span.seconds());
-        for (const Passage& passage : passages_) pass(passage, span, maker);
+        if (passageCount_ == 0) return;
+        Runs runs;
+        runs.seconds = span.seconds();
+        runs.backSeconds = 1.5 * runs.seconds;
+        runs.perSecond = 1.0 / runs.seconds;
+        runs.startNs = span.startNs;
+        runs.lengthNs = static_cast<double>(span.endNs - span.startNs);
+        for (const Passage& passage : std::span{passages_.data(), passageCount_})
+            if (passage.every > 0) pass(passage, span, runs, maker);
+        flush(runs, maker);
     }
     void endStep();
 
@@ -260,19 +270,21 @@ private:
         key = (key ^ (key >> 31U)) * 0xBF58476D1CE4E5B9U;
         return key != 0 ? key : 1; // IntegerMap excludes key 0
     }
-    static bool isUsable(const LastingPoint& point) noexcept { // false for NaN
-        const auto isNear = [](const SurfacePath& path) {
-            return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres;
-        };
-        return isNear(point.onA) && isNear(point.onB) && point.normalNewtonSeconds >= 0.0;
+    static bool isNear(const SurfacePath& path) noexcept { // false for NaN
+        return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres;
     }
-    struct Passage { // the grains of one surface that one point passes in this step
+    /// Of one surface that one point passes in this step. moveAlong() computes it by vectors.
+    struct Passage {
+        // At first the paths of the last step (not a number: it is not known) and of this one
+        double startMetres, metresPerSecond, metresPerSecond2, endMetres;
+        double loadNewtons, grainMetres, grains; // grains: about so many
+        double fastest;                          // m/s; below 0: it reverses
         Told* told;
         std::int32_t surface; // slot
-        double loadNewtons;
-        SurfaceMotion motion;
-        std::int64_t every;
-        double grains; // about so many
+        std::int64_t every;   // 0: the point is at rest
+        SurfaceMotion motion(double seconds) const noexcept {
+            return {startMetres, metresPerSecond, metresPerSecond2, seconds};
+        }
     };
 
     void compute() {
@@ -280,7 +292,7 @@ private:
     }
     static void computeFaces(LastingContacts& of);
     [[gnu::always_inline]] void add(const LastingPoint& point, std::uint64_t pairsKey) {
-        if (points_.count() == mostPoints || !isUsable(point)) return;
+        if (points_.count() == mostPoints || !(point.normalNewtonSeconds >= 0.0)) return;
         const std::size_t known = points_.count();
         const std::int32_t at = points_.tell(keyOf(pairsKey, point.feature));
         if (points_.count() == known) return;
@@ -296,7 +308,7 @@ private:
     }
     void follow(double seconds);
     template <SurfacePath LastingPoint::*path>
-    [[gnu::always_inline]] double follow(Told& told, std::int32_t surface, double seconds);
+    [[gnu::always_inline]] void follow(Told& told, std::int32_t surface, double seconds);
     void weigh(Pair& pair, double seconds) const noexcept;
     void forgetStep() noexcept;
     /// Where the passage's point was between grains of this surface at the end of the last step, if that is
@@ -309,8 +321,21 @@ private:
                    ? &before.gap
                    : nullptr;
     }
+    struct Runs : GrainRuns {
+        std::int32_t surface = FixtureTable::none, camera = FixtureTable::none;
+        bool isUsed = false; // the maker takes runs of these
+        Grains grains{0, Texture{1.0}};
+    };
     template <class Maker>
-    void pass(const Passage& passage, const StepSpan& span, Maker& maker);
+    [[gnu::noinline]] static void flush(Runs& runs, Maker& maker);
+    template <class Maker>
+    [[gnu::noinline]] void begin(const Passage& passage, std::int32_t camera, std::int32_t other, Runs& runs,
+                                 Maker& maker);
+    template <class Maker>
+    [[gnu::always_inline]] void pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker);
+    template <class Maker>
+    [[gnu::noinline]] void passEach(const Passage& passage, const StepSpan& span, const GrainGap* gap,
+                                    Runs& runs, Maker& maker);
 
     const FixtureTable& table_;
     std::array<FacePoint, 32> faces_; // reported, not yet computed; so many stay in the first-level cache
@@ -318,22 +343,111 @@ private:
     void (*computeFaces_)(LastingContacts&) = nullptr;
     StepMemory<Told> points_;
     StepMemory<Pair> pairs_;
-    std::vector<Passage> passages_;
+    std::vector<Passage> passages_; // so many of them, then what is of no use
+    std::size_t passageCount_ = 0;
     std::uint64_t thinned_ = 0;
 };
 
 template <class Maker>
-void LastingContacts::pass(const Passage& passage, const StepSpan& span, Maker& maker) {
+void LastingContacts::flush(Runs& runs, Maker& maker) {
+    if (runs.count > 0) {
+        runs.compute();
+        maker.addAll(runs);
+    }
+    runs.count = runs.runCount = 0;
+}
+
+template <class Maker>
+void LastingContacts::begin(const Passage& passage, std::int32_t camera, std::int32_t other, Runs& runs,
+                            Maker& maker) {
+    flush(runs, maker);
+    const KnownFixture& surface = table_[passage.surface];
+    const Texture& texture = surface.values.texture;
+    runs.surface = passage.surface;
+    runs.camera = camera;
+    runs.isUsed = maker.prepare(camera, other, runs);
+    runs.grains = Grains{static_cast<std::uint64_t>(surface.id), texture};
+    runs.grains.describe(runs);
+    runs.steepness = grainSlope * texture.roughness;
+    runs.rolling = texture.rolling;
+}
+
+template <class Maker>
+inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker) {
     Told& told = *passage.told;
     told.inGapOf = passage.surface;
     told.revision = table_.revision();
     told.every = passage.every;
-    const SurfaceMotion motion = passage.motion;
     const GrainGap* const gap = gapBefore(passage);
-    if (gap != nullptr && passage.grains < 0.75 && gap->holds(motion)) { // most slow points
+    if (gap != nullptr && passage.grains < 0.75 && gap->holds(passage.motion(runs.seconds))) { // most slow
+                                                                                               // points
         told.gap = *gap;
         return;
     }
+    const LastingPoint& point = told.point;
+    const bool isFeltByA = table_.isCamera(point.a);
+    const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
+    if (isFeltByA == table_.isCamera(point.b) || passage.fastest < 0.0) [[unlikely]]
+        return passEach(passage, span, gap, runs, maker);
+    if (runs.surface != passage.surface || runs.camera != one) [[unlikely]]
+        begin(passage, one, other, runs, maker);
+    if (!runs.isUsed) [[unlikely]]
+        return passEach(passage, span, gap, runs, maker);
+    const double end = passage.endMetres;
+    const bool isUp = end > passage.startMetres;
+    const double sign = isUp ? 1.0 : -1.0;
+    const std::int64_t step = isUp ? passage.every : -passage.every;
+    double behind = 0.0, ahead = 0.0;
+    std::int64_t index = runs.grains.begin(passage.startMetres, isUp, passage.every, gap, behind, ahead);
+    if (sign * (end - ahead) >= 0.0) {
+        if (runs.runCount == GrainRuns::mostRuns) [[unlikely]]
+            flush(runs, maker);
+        GrainRuns::Run* run = &runs.runs[runs.runCount++];
+        run->start = passage.startMetres;
+        run->metresPerSecond = passage.metresPerSecond;
+        run->metresPerSecond2 = passage.metresPerSecond2;
+        run->sign = sign;
+        run->slip = point.slipMetresPerSecond;
+        run->newtons = passage.loadNewtons;
+        run->every = static_cast<double>(passage.every);
+        run->point = {point.point.x, point.point.y, point.point.z};
+        run->velocity = {point.metresPerSecond.x, point.metresPerSecond.y, point.metresPerSecond.z};
+        run->otherId = maker.idOf(other);
+        const std::int64_t first = index;
+        std::size_t count = runs.count;
+        do {
+            if (count == GrainRuns::mostGrains) [[unlikely]] {
+                const GrainRuns::Run same = *run;
+                runs.count = count;
+                flush(runs, maker);
+                count = 0;
+                run = &runs.runs[runs.runCount++];
+                *run = same;
+            }
+            behind = ahead;
+            runs.metres[count] = ahead;
+            runs.names[count] = runs.grains.nameOf(index);
+            runs.runAt[count++] = static_cast<std::uint32_t>(reinterpret_cast<const char*>(run) -
+                                                             reinterpret_cast<const char*>(runs.runs.data()));
+            index += step;
+            ahead = runs.grains.metresOf(index);
+        } while (sign * (end - ahead) >= 0.0);
+        runs.count = count;
+        if (passage.every > 1)
+            thinned_ += static_cast<std::uint64_t>((index - first) / step) *
+                        static_cast<std::uint64_t>(passage.every - 1);
+    }
+    told.gap = {isUp ? behind : ahead, isUp ? ahead : behind, index, isUp};
+}
+
+/// The same where runs do not do.
+template <class Maker>
+void LastingContacts::passEach(const Passage& passage, const StepSpan& span, const GrainGap* gap, Runs& runs,
+                               Maker& maker) {
+    flush(runs, maker);
+    runs.surface = FixtureTable::none; // the maker may come to have another
+    Told& told = *passage.told;
+    const SurfaceMotion motion = passage.motion(span.seconds());
     const LastingPoint& point = told.point;
     const KnownFixture& surface = table_[passage.surface];
     const Texture& texture = surface.values.texture;
