@@ -56,7 +56,7 @@ std::vector<std::pair<std::string, Attended>> attendance(const ReportTrials& tri
                                                                        AnswerKind::label &&
                                                                    cell(row, "response").empty()
                                                              : hasNoAnswer(cell, row));
-            if (const auto seconds = parseNumber<double>(cell(row, "response_s")))
+            if (const auto seconds = parseNumber<double>(cell(row, "response_s")); seconds && !ranOut)
                 own.seconds.push_back(*seconds);
         }
     }
