@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # What parses and what hands memory over under the address sanitizer, every parser fuzzed for a moment, what is concurrent under the thread sanitizer.
-# test.sh runs it where its files changed since it passed (passed.sh), the night always. Other modules: Tests/nightly.sh asan tsan.
+# test.sh tells whether these files passed (passed.sh); the night runs it. Other modules: Tests/nightly.sh asan tsan.
 # Usage: sanitizers.sh [--keep] [SKIPPED_PY_OPTION...]; --keep writes down that these files passed.
 set -eu
 cd "$(dirname "$0")/.."
