@@ -168,7 +168,10 @@ std::vector<Sentence> sentences() {
         {"over trials, Wilson's", of(fits, 1), of(fits, 3)},
         {"Mean score of each scale in late, n = 3.", of(twice, 3, {}, true), of(methods, 3)},
         {"Mean score of each scale, n = 3.", of(methods, 3), of(grid, 3)},
-        {". Lines: 95 % intervals (t) of the table.", of(fits, 3), of(fits, 1)},
+        {". Lines: 95 % intervals (t) of the table.", of(fits, 3), of(grid, 3)},
+        {"Threshold of a staircase: mean of the later half of the reversals that a trial follows (of 7 the "
+         "last 4).",
+         of(unknown, 3), of(steps, 3)},
         {"Mean share of each alternative in which, n = 3.", of(twice, 3, {}, true), of(fits, 3)},
         {"without a score of", of(twice, 3, unscored, true), of(twice, 3, {}, true)},
         {"Mean level that was set, n = 3", of(matched, 3, {}, true), of(steps, 3)},
