@@ -21,7 +21,7 @@ bytes() { cpp "$@" | xargs cat | tr -d ' \t\n\r\f\v' | wc -c; }
 say "products: lines of C++" "$(lines $products)" 119616
 say "products: files of C++" "$(cpp $products | wc -l)" 787
 say "products: bytes without white space" "$(bytes $products)" 4208446
-say "tests: lines of C++" "$(lines Tests)" 83628
+say "tests: lines of C++" "$(lines Tests)" 83631
 say "tests: files of C++" "$(cpp Tests | wc -l)" 579
 if [ -n "$bin" ]; then
     say "tests: programs" "$(find "$bin" -maxdepth 1 -name 'physvib-*-tests' | wc -l)" 12
