@@ -658,7 +658,8 @@ study <- function(study, scales = character(), points = character(), half = "thr
     for (m in unique(own$method)) compare(paste0("threshold by ", m, session), own[own$method == m, ], "threshold", columns = c("group", "condition"))
   }) else from("psychometric.csv", c("threshold", "jnd"))
   # Thresholds among other levels in each condition differ by what was played: only slopes are compared then.
-  played <- if (all(c("stimulus", "condition") %in% names(d))) tapply(d$stimulus, d$condition, function(s) paste(in.order(s), collapse = " "))
+  chosen <- if (is.told) d[d$task == "choose", ] else d
+  played <- if (all(c("stimulus", "condition") %in% names(d))) tapply(chosen$stimulus, chosen$condition, function(s) paste(in.order(s), collapse = " "))
   is.alike <- !file.exists("psychometric-stimuli.csv") || length(unique(played[names(played) %in% table.of("psychometric-stimuli.csv")$condition])) < 2
   if (!is.alike) result(half, "condition", "", NA, NA, length(everybody), note = "other levels in each condition")
   from("psychometric-stimuli.csv", c(if (is.alike) "threshold", "jnd"))

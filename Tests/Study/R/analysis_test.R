@@ -446,6 +446,12 @@ if (!all(map$distance == "100 - mean")) fault("how likeness becomes distance is 
 d <- expand.grid(trial = 1:3, stimulus = c("1", "2"), condition = c("c1", "c2"), participant = person(7), stringsAsFactors = FALSE); d$choice <- sample(c("A", "B"), nrow(d), TRUE); rows(data.frame(participant = "01", condition = "c1", threshold = 1, jnd = 1), "psychometric-stimuli.csv")
 ours <- whole(d, character()); unlink("psychometric-stimuli.csv"); if (!any(grepl("stimulus (2): averaged over, level by level", ours$note[grepl("choice", ours$test)], fixed = TRUE))) fault("levels are averaged over without a word")
 if (any(grepl("against chance", ours$test))) fault("shares of levels that have a function are tested against chance"); if (!any(grepl("against chance", whole(d, character())$test))) fault("shares are not tested against chance")
+for (other in c(FALSE, TRUE)) { # thresholds among other levels differ by what was played
+  d <- expand.grid(trial = 1:2, stimulus = c("1", "2"), condition = c("c1", "c2"), participant = person(7), stringsAsFactors = FALSE); if (other) d$stimulus <- ifelse(d$condition == "c2", paste0("9", d$stimulus), d$stimulus)
+  d$choice <- sample(c("A", "B"), nrow(d), TRUE); fits <- expand.grid(condition = c("c1", "c2"), participant = person(7), stringsAsFactors = FALSE); fits$threshold <- rnorm(14); fits$jnd <- rnorm(14); rows(fits, "psychometric-stimuli.csv")
+  ours <- whole(d, character()); if (any(ours$test == "pairs by t of threshold by condition") == other || any(ours$note == "other levels in each condition") != other || !any(ours$test == "pairs by t of half interquartile range by condition")) fault("thresholds among other levels are compared, or of the same are not")
+}
+unlink("psychometric-stimuli.csv")
 d <- expand.grid(trial = 1:2, target_x = c(100, 700), target_y = c(50, 90), participant = person(6)); d$target_column <- d$target_x %/% 300 + 1; d$target_row <- d$target_y %/% 60 + 1; d$x <- rnorm(48); d$y <- rnorm(48)
 if (nrow(line(whole(d, character()), "target_x: 100 - 700")) != 2) fault("which column is 1 is not told")
 # What the mixed model has is told.
