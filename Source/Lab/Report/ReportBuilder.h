@@ -80,7 +80,10 @@ inline std::string ofPeople(const std::vector<std::size_t>& counts) {
     return ", n = " + std::to_string(*fewest) + (*fewest < *most ? " to " + std::to_string(*most) : "");
 }
 
-inline constexpr const char* intervalsOfTheTable = ". Lines: 95 % intervals (t) of the table.";
+/// The end of a caption: what the lines are, if there are any.
+inline const char* lastOfCaption(bool hasIntervals) {
+    return hasIntervals ? ". Lines: 95 % intervals (t) of the table." : ".";
+}
 
 /// How many people gave the trials of each condition.
 template <class Condition>

@@ -188,13 +188,15 @@ void tellLevels(ReportBuilder& report) {
     if (std::ranges::count(summaries, LevelTrial::Kind::adjustment, &LevelSummary::kind) > 1) {
         const auto reference = comparedLevel(report.trials);
         std::vector<std::size_t> people;
+        bool hasIntervals = false; // of one participant there is none
         for (const LevelSummary& one : summaries)
-            if (one.kind == Kind::adjustment) people.push_back(one.participants);
+            if (one.kind == Kind::adjustment)
+                people.push_back(one.participants), hasIntervals |= one.halfInterval > 0.0;
         report.page.figure(
             {levelChart(report.frame("Matched levels"), summaries, LevelTrial::Kind::adjustment, reference)},
             "Mean level that was set" + ofPeople(people) +
                 (reference ? ". Dashed: level of " + reference->second : std::string{}) +
-                intervalsOfTheTable);
+                lastOfCaption(hasIntervals));
     }
     tellThresholds(report, report.read(readLevels).value.conditions.front().trials, summaries);
     if (has(LevelTrial::Kind::magnitude) && report.trials.all.column("stimulus"))

@@ -50,7 +50,7 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
     if (hasRoom(summaries))
         report.page.figure(
             {scoresChart(report.frame(title), data.scales, summaries, all.size() == 1 ? *all.begin() : 0)},
-            title + ofPeople(people) + (hasIntervals ? intervalsOfTheTable : "."));
+            title + ofPeople(people) + lastOfCaption(hasIntervals));
 }
 
 /// Psychometric functions over the stimuli, where these are numbers and an alternative is right.

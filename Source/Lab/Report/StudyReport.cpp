@@ -423,10 +423,10 @@ std::string measuresOf(const Protocol& protocol, int participants, const StudyRe
             "people with a reason in the table of people",
             "trials that did not leave as planned, ran out of time or have no answer", "trainings",
             "tests: who lacks a level; factors of which fewer than half of the people have all levels"};
-    const auto add = [&](bool isThere, std::string measure, const char* exclusion = "") {
+    const auto add = [&](bool isThere, std::string measure, const std::string& exclusion = {}) {
         if (!isThere) return;
         measures.push_back(std::move(measure));
-        if (*exclusion != '\0') exclusions.emplace_back(exclusion);
+        if (!exclusion.empty()) exclusions.push_back(exclusion);
     };
     add(hasStaircase,
         "threshold of a staircase: mean of the later half of the reversals of the level that a trial "
@@ -443,7 +443,8 @@ std::string measuresOf(const Protocol& protocol, int participants, const StudyRe
             "three quarters; maximum likelihood, " +
             report.functions,
         "functions: not rising, a constant fits as well (likelihood ratio, p > 0.05), width of 20 times the "
-        "range of the levels, threshold outside it; of a step the JND");
+        "range of the levels, threshold outside it; of a step the " +
+            report.slope);
     add(has([](const SessionPlan& s) { return s.adjustment.has_value(); }), "matched level: mean, dB");
     add(isOf(AnswerKind::number), "magnitude: geometric mean; exponent: slope of logarithms, least squares");
     add(has([](const SessionPlan& s) { return s.comparesPairs; }),
