@@ -180,8 +180,9 @@ inline std::array<float, 4> ChainLoads::Contact::squares() const noexcept {
 
 void ChainLoads::settle() {
     passed_.resize(static_cast<std::size_t>(table_.size()));
-    for (std::size_t i = 0; i < contacts_.size(); ++i) {
-        const Contact& contact = contacts_[i];
+    const std::size_t count = contacts_.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const Contact& contact = contacts_.data()[i];
         if (contact.step != step_ || contact.isUnknown) continue;
         const std::array<float, 4> squares = contact.squares();
         const auto before = [&](unsigned steps) { return (contact.newest - steps) % 4; };

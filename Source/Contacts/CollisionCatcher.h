@@ -154,13 +154,13 @@ public:
     /// The same of a usual contact.
     [[gnu::always_inline]] Place& push(Contact& contact, Vector3 newtonSeconds) noexcept {
         // Summed over the step's points and solver passes, and over the segments of a chain.
-        Vector3 sum;
-        if (contact.step == step_)
-            sum = contact.push(contact.newest);
-        else
+        if (contact.step == step_) [[unlikely]] {
+            newtonSeconds = contact.push(contact.newest) + newtonSeconds;
+        } else {
             contact.newest = (contact.newest + 1) % 4;
-        contact.step = step_;
-        contact.set(sum + newtonSeconds);
+            contact.step = step_;
+        }
+        contact.set(newtonSeconds);
         return contact.place;
     }
     /// The contact at that place; null: another's, or it collided in the last step, or is new.

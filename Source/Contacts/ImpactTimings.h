@@ -44,9 +44,10 @@ public:
     Found find(std::int32_t camera, ContactGraph& graph) {
         if (strikes_.empty()) return {};
         if (!isLocated_) locate(graph);
-        if (!graph.isPassing(camera) || struck_.find(camera) != SlotMap::none)
+        const std::int32_t component = graph.component(camera);
+        if (component == ContactGraph::noComponent || struck_.find(camera) != SlotMap::none)
             return findAround(camera, graph);
-        const std::int32_t at = sumOf_.find(graph.component(camera)); // the usual case
+        const std::int32_t at = sumOf_.find(component); // the usual case
         return at == SlotMap::none ? Found{} : sums_[static_cast<std::size_t>(at)];
     }
 
@@ -108,6 +109,12 @@ private:
     void strike(const StepSpan& span, std::vector<Impact>& impacts);
     void complete(const StepSpan& span, std::vector<Impact>& impacts);
     void completeLate(const StepSpan& span, std::vector<Impact>& impacts);
+    struct Limit { // of an impulse that is an impact
+        double lighterMassKg;
+        float gravityScale;
+    };
+    Limit limitOf(std::int32_t slot, const ChainLoads::Passed& main) const noexcept;
+    bool isWhole(double newtonSeconds, const ChainLoads::Passed& main, double least) const noexcept;
     template <class Later>
     void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span,
                   std::vector<Impact>& impacts) const;

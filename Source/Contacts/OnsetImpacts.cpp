@@ -66,15 +66,42 @@ void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) 
 
 // Haptic sources that transmitted impulses of the last step's collisions reach only in this step.
 void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impacts) {
+    const double usual = span.thresholdMetresPerSecond(1.0F);
     for (const std::int32_t camera : catcher_.loads().receivers()) {
         if (isUsed_.find(camera) != SlotMap::none) continue;
         const StrikeCauses::Found found = before_.find(camera, graph_);
         if (found.strongest == nullptr) continue;
         isUsed_.set(camera, 1);
-        complete(
-            handOn(camera, found, {}, {}), catcher_.loads().passed(camera), [&] { return found.aftermath; },
-            span, impacts);
+        const ChainLoads::Passed& now = catcher_.loads().passed(camera);
+        const Limit limit = limitOf(camera, now);
+        const double threshold =
+            limit.gravityScale == 1.0F ? usual : span.thresholdMetresPerSecond(limit.gravityScale);
+        const double least = threshold * limit.lighterMassKg,
+                     whole = static_cast<double>(now.newtonSeconds.length());
+        if (!isWhole(whole, now, least)) continue;
+        const double impulse = std::min(whole, found.newtonSeconds + found.aftermath);
+        if (StepSpan::isStrike(impulse, least))
+            impacts.push_back({camera, now.other, std::max(span.earliestNs, found.strongest->timeNs), impulse,
+                               catcher_.loads().pointOf(now)});
     }
+}
+
+// Of what a source received, most of it as `main`.
+inline OnsetImpacts::Limit OnsetImpacts::limitOf(std::int32_t slot,
+                                                 const ChainLoads::Passed& main) const noexcept {
+    const FixtureTable::Mobility& camera = table_.mobility(slot);
+    const FixtureTable::Mobility& other =
+        main.other == FixtureTable::none ? camera : table_.mobility(main.other);
+    return {std::min(camera.movableMassKg, other.movableMassKg),
+            std::max(camera.gravityScale, other.gravityScale)};
+}
+
+// True if it is an impact; counts what is none although its strongest part would be one.
+inline bool OnsetImpacts::isWhole(double newtonSeconds, const ChainLoads::Passed& main,
+                                  double least) const noexcept {
+    if (StepSpan::isStrike(newtonSeconds, least)) return true;
+    catcher_.tally().handedOn += StepSpan::isStrike(static_cast<double>(main.strongest), least) ? 1 : 0;
+    return false;
 }
 
 // `later` returns the causes' impulse in their second step; called only where that could matter: seldom.
@@ -85,16 +112,9 @@ inline void OnsetImpacts::complete(const HandedOn& handedOn, const ChainLoads::P
     const bool isLate = now.strongest > handedOn.passed.strongest;
     const ChainLoads::Passed& main = isLate ? now : handedOn.passed;
     const auto whole = static_cast<double>((handedOn.passed.newtonSeconds + now.newtonSeconds).length());
-    const FixtureTable::Mobility& camera = table_.mobility(handedOn.camera);
-    const FixtureTable::Mobility& other =
-        main.other == FixtureTable::none ? camera : table_.mobility(main.other);
-    const double lighter = std::min(camera.movableMassKg, other.movableMassKg);
-    const float gravityScale = std::max(camera.gravityScale, other.gravityScale);
-    const double least = span.leastNewtonSeconds(lighter, gravityScale);
-    if (!StepSpan::isStrike(whole, least)) {
-        catcher_.tally().handedOn += StepSpan::isStrike(static_cast<double>(main.strongest), least) ? 1 : 0;
-        return;
-    }
+    const Limit limit = limitOf(handedOn.camera, main);
+    const double least = span.leastNewtonSeconds(limit.lighterMassKg, limit.gravityScale);
+    if (!isWhole(whole, main, least)) return;
     const double impulse = std::min(whole, handedOn.causedNewtonSeconds + later());
     if (StepSpan::isStrike(impulse, least))
         impacts.push_back({handedOn.camera, main.other, std::max(span.earliestNs, handedOn.timeNs), impulse,

@@ -193,7 +193,7 @@ void Attachment::beginStepUntil(std::int64_t endNs) {
     parts_->listener->install(*world_);
     const double stepSeconds = static_cast<double>(std::max<std::int64_t>(0, endNs - timeNs())) * 1.0e-9;
     parts_->sweeps.beginStep(*world_, stepSeconds);
-    parts_->bodies.invalidate();
+    parts_->bodies.beginStep();
     parts_->events.beginStep(endNs, toVector(world_->GetGravity()), parts_->sweeps.largestMassKg());
 }
 

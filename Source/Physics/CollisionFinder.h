@@ -25,13 +25,37 @@ class FreshPoints {
 public:
     FreshPoints() { entries_.reserve(expectedContacts); }
 
-    /// In PreSolve: updates a contact and returns its new points, one bit each. Outside a reported step,
-    /// whose end is not known, a point with an impulse is old at once.
+    /// In PreSolve: true if all points are old, which is usual, and nothing has to be noted.
+    bool areOld(const b2Contact& contact, const b2Manifold& before) const noexcept {
+        return isSame(before, *contact.GetManifold()) && !mayHave(contact);
+    }
+
+    /// Otherwise: updates a contact and returns its new points, one bit each. Outside a reported step, whose
+    /// end is not known, a point with an impulse is old at once.
     unsigned look(const b2Contact& contact, const b2Manifold& before, bool isStepping) {
         const b2Manifold& now = *contact.GetManifold();
-        if (isSame(before, now) && !mayHave(contact)) [[likely]]
-            return 0U;
-        return lookCloser(contact, before, now, isStepping);
+        int known = find(contact);
+        if (!isStepping && known >= 0 && entries_[static_cast<std::size_t>(known)].isSolved) {
+            drop(static_cast<std::size_t>(known));
+            known = -1;
+        }
+        if (known < 0 && isSame(before, now)) return 0U;
+        // then all of its points are still new
+        const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved;
+        for (int i = 0; i < now.pointCount; ++i) {
+            const std::uint32_t id = now.points[i].id.key;
+            if (!isWaiting && hasPoint(before, id)) continue;
+            if (known < 0) {
+                known = static_cast<int>(entries_.size());
+                entries_.push_back({idOf(contact), {}, 0, false});
+                indices_.set(idOf(contact), known);
+                names_.add(idOf(contact));
+            }
+            Entry& entry = entries_[static_cast<std::size_t>(known)];
+            if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
+                entry.ids[static_cast<std::size_t>(entry.count++)] = id;
+        }
+        return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], now);
     }
 
     /// False is certain: the contact has no new points.
@@ -59,32 +83,6 @@ public:
     }
 
 private:
-    [[gnu::noinline]] unsigned lookCloser(const b2Contact& contact, const b2Manifold& before,
-                                          const b2Manifold& now, bool isStepping) {
-        int known = find(contact);
-        if (!isStepping && known >= 0 && entries_[static_cast<std::size_t>(known)].isSolved) {
-            drop(static_cast<std::size_t>(known));
-            known = -1;
-        }
-        if (known < 0 && isSame(before, now)) return 0U;
-        // then all of its points are still new
-        const bool isWaiting = known >= 0 && !entries_[static_cast<std::size_t>(known)].isSolved;
-        for (int i = 0; i < now.pointCount; ++i) {
-            const std::uint32_t id = now.points[i].id.key;
-            if (!isWaiting && hasPoint(before, id)) continue;
-            if (known < 0) {
-                known = static_cast<int>(entries_.size());
-                entries_.push_back({idOf(contact), {}, 0, false});
-                indices_.set(idOf(contact), known);
-                names_.add(idOf(contact));
-            }
-            Entry& entry = entries_[static_cast<std::size_t>(known)];
-            if (!has(entry, id) && entry.count < static_cast<int>(entry.ids.size()))
-                entry.ids[static_cast<std::size_t>(entry.count++)] = id;
-        }
-        return known < 0 ? 0U : maskOf(entries_[static_cast<std::size_t>(known)], now);
-    }
-
     static bool hasPoint(const b2Manifold& manifold, std::uint32_t id) noexcept {
         const auto isIt = [id](const b2ManifoldPoint& point) { return point.id.key == id; };
         return std::any_of(manifold.points, manifold.points + manifold.pointCount, isIt);
@@ -152,9 +150,8 @@ public:
     void end(const b2Contact& contact);   ///< in EndContact
     /// After the game's own listener
     void onPreSolve(const b2Contact& contact, const b2Manifold& before) {
-        if (const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping()); fresh != 0)
-            [[unlikely]]
-            meet(contact, fresh);
+        if (!fresh_.areOld(contact, before)) [[unlikely]]
+            look(contact, before);
     }
     void onPostSolve(const b2Contact& contact, const b2ContactImpulse& impulse);
 
@@ -183,7 +180,8 @@ private:
             return search(contact);
         return &known_[static_cast<std::size_t>(at)];
     }
-    [[gnu::noinline]] void meet(const b2Contact& contact, unsigned fresh);
+    [[gnu::noinline]] void look(const b2Contact& contact, const b2Manifold& before);
+    void meet(const b2Contact& contact, unsigned fresh);
     [[gnu::noinline]] Known* search(const b2Contact& contact);
     [[gnu::always_inline]] const Pair& pairOf(Known& known) {
         CollisionCatcher& catcher = events_.catcher();
@@ -200,11 +198,15 @@ private:
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
                   Collision& collision) const;
     [[gnu::noinline]] void solveOutOfTurn(const b2Contact& contact, const b2ContactImpulse& impulse);
+    [[gnu::noinline]] void solveNew(const b2Contact& contact, const b2ContactImpulse& impulse);
+    [[gnu::noinline]] void solveUnknown(const b2Contact& contact, const b2ContactImpulse& impulse);
     [[gnu::always_inline]] void solveKnown(const b2Contact& contact, const b2ContactImpulse& impulse,
                                            Known& known);
     [[gnu::noinline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known& known);
     [[gnu::noinline]] void tell(const b2Contact& contact, const b2ContactImpulse& impulse,
                                 unsigned collisions, const Known& known);
+    [[gnu::noinline]] void tellUsual(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                     const Known& known, const FaceTouch& touch);
     void tellDiscs(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known);
     void tellFace(const b2Contact& contact, const b2ContactImpulse& impulse, int i, const Known& known,
                   const FaceTouch& touch);

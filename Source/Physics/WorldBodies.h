@@ -93,19 +93,26 @@ public:
         float largestKg = 0.0F;
         bool isKnown = true; // usually the bodies and their order are those of the last step
         for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext()) {
-            const b2BodyType type = body->GetType();
-            if (type == b2_staticBody) continue;
-            isKnown &= next->body == body;
-            next->body = body;
+            if (body->GetType() == b2_staticBody) {
+                isKnown &= next->key == (idOf(*body) | isStatic);
+                next++->key = idOf(*body) | isStatic;
+                continue;
+            }
+            isKnown &= next->key == idOf(*body);
+            next->key = idOf(*body);
             next->centre = body->GetWorldCenter();
             next++->start = motionOf(*body);
-            if (type == b2_dynamicBody && body->IsEnabled()) largestKg = std::max(largestKg, body->GetMass());
+            if (body->IsEnabled()) largestKg = std::max(largestKg, body->GetMass()); // kinematic: 0
         }
         largestMassKg_ = static_cast<double>(largestKg);
-        if (isKnown && next->body == nullptr) return;
-        for (; next != sweeps_.data() + sweeps_.size(); ++next) next->body = nullptr;
+        if (isKnown && next->key == 0) return;
+        for (; next != sweeps_.data() + sweeps_.size(); ++next) next->key = 0;
+        ++census_;
         index();
     }
+
+    /// Another number whenever beginStep() has found other bodies, or in another order.
+    std::uint64_t census() const noexcept { return census_; }
 
     /// Steps of so many bodies, and a few more, take no memory.
     void makeRoom(std::size_t bodies) {
@@ -145,8 +152,9 @@ public:
     }
 
 private:
+    static constexpr std::uint64_t isStatic = 1; // added to the address, which is even
     struct Sweep {
-        const b2Body* body = nullptr; // used as an address only
+        std::uint64_t key = 0; // the body's address, used as such only; 0: none
         b2Vec2 centre;
         BodyMotion start;
     };
@@ -156,14 +164,15 @@ private:
     }
     void index() {
         indices_.clear();
-        for (std::size_t i = 0; sweeps_[i].body != nullptr; ++i)
-            indices_.set(idOf(*sweeps_[i].body), static_cast<std::int32_t>(i));
+        for (std::size_t i = 0; sweeps_[i].key != 0; ++i)
+            if ((sweeps_[i].key & isStatic) == 0) indices_.set(sweeps_[i].key, static_cast<std::int32_t>(i));
     }
 
     double stepSeconds_ = 0.0, lastStepSeconds_ = 0.0;
     double largestMassKg_ = 0.0;
-    std::vector<Sweep> sweeps_; // of bodies that are not static, then without a body
-    IntegerMap indices_;        // indices into sweeps_, by body
+    std::vector<Sweep> sweeps_; // of all bodies, static ones without a state, then without a body
+    IntegerMap indices_;        // indices into sweeps_, by body that is not static
+    std::uint64_t census_ = 0;
 };
 
 /// Bodies are identified by their addresses. Box2D has no callback for a body whose fixtures were destroyed
@@ -179,8 +188,14 @@ public:
     /// The world's owner may have destroyed bodies since, except the two given. The next access to another
     /// one costs one pass over the world's list.
     void invalidate(const b2Body* one = nullptr, const b2Body* other = nullptr) noexcept {
-        isCertain_ = false;
+        isOfStep_ = isCertain_ = false;
         present_ = {one, other};
+    }
+    /// The same right after BodySweeps::beginStep(), which has seen whether the list is another one.
+    void beginStep() noexcept {
+        invalidate();
+        isOfStep_ = true;
+        isCertain_ = indexed_ == sweeps_.census();
     }
     bool has(std::uint64_t body) const {
         if (!isCertain_) {
@@ -217,6 +232,7 @@ private:
     // replaced by another at its address.
     void look() const {
         isCertain_ = true;
+        indexed_ = isOfStep_ ? sweeps_.census() : 0;
         const std::uint64_t census = BodySweeps::censusOf(world_);
         if (census == census_) return;
         census_ = census;
@@ -229,8 +245,10 @@ private:
     const BodySweeps& sweeps_;
     std::array<const b2Body*, 2> present_{};
     mutable bool isCertain_ = false;
-    mutable std::uint64_t census_ = 0; // hash of the list that was indexed
-    mutable IntegerMap bodies_;        // bodies that exist
+    bool isOfStep_ = false;             // nothing has been destroyed since the sweeps' beginStep()
+    mutable std::uint64_t indexed_ = 0; // the sweeps' census of the list that was indexed; 0: not known
+    mutable std::uint64_t census_ = 0;  // hash of that list
+    mutable IntegerMap bodies_;         // bodies that exist
 };
 
 } // namespace physvib
