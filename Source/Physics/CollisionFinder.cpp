@@ -194,10 +194,9 @@ namespace {
 Frame frameOf(const b2Fixture& fixture) noexcept {
     static_assert(offsetof(b2Transform, q) == offsetof(Frame, sine) && offsetof(b2Rot, c) == sizeof(float));
     Frame frame;
-    using Bits = float __attribute__((vector_size(sizeof frame)));
-    Bits bits;
+    float __attribute__((vector_size(sizeof frame))) bits; // a single copy, which a bit_cast is not
     std::memcpy(&bits, &fixture.GetBody()->GetTransform(), sizeof bits);
-    std::memcpy(&frame, &bits, sizeof bits);
+    std::memcpy(static_cast<void*>(&frame), &bits, sizeof bits);
     return frame;
 }
 
