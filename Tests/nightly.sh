@@ -71,6 +71,7 @@ step() {
         juce-8) Tests/fresh-machine.sh --suite trixie --own-juce ;;
         juce-9) Tests/fresh-machine.sh --suite sid --own-juce ;;
         no-lab) Tests/House/no-lab.sh build/no-lab ;;
+        options) Tests/House/options.sh "$(mktemp -d)" ;;
         additions) Tests/House/additions.py build/nightly/additions ;;
         pages) Tests/fresh-machine.sh --pages ;;
         pico) .ci/pico-sources.sh && build release physvib-pico physvib-render && Tests/Firmware/pico.sh ;;
