@@ -249,6 +249,12 @@ TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
     EXPECT_GT(strongestOf(model, hit).levelG, 0.0);
     model.change("Mute", [](Mix& mix) { mix.strips[0].isMuted = true; });
     EXPECT_EQ(strongestOf(model, hit).levelG, 0.0) << "who is muted plays nothing";
+    CollisionEvent atA = hit;
+    atA.x = 0.0;
+    EXPECT_EQ(whyOnlySeen(model, atA), "A is muted");
+    model.undoManager().undo();
+    model.change("Solo", [](Mix& mix) { mix.strips[1].isSolo = true; });
+    EXPECT_EQ(whyOnlySeen(model, atA), "A is not soloed");
     model.undoManager().undo();
     model.strikes().testPulse(2);
     EXPECT_FALSE(runUntil([&] { return model.look().meters.peaks[2] > 0.0f; }, 0.5));

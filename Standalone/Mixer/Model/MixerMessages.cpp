@@ -87,7 +87,8 @@ juce::String whyOnlySeen(const MixerModel& model, const CollisionEvent& hit) {
     const auto j = static_cast<std::size_t>(nearest);
     const auto label = utf8(model.mix().layout.enchanters[j].label);
     if (!model.device().isPlayed(j)) return label + " has no output";
-    return model.mix().isSilent(static_cast<int>(j)) ? label + " is muted" : juce::String{"too weak"};
+    if (model.mix().strips[j].isMuted) return label + " is muted";
+    return model.mix().isSilent(static_cast<int>(j)) ? label + " is not soloed" : juce::String{"too weak"};
 }
 
 juce::String placeText(const Scene& scene, const CollisionEvent& hit) {

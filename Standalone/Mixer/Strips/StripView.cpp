@@ -111,7 +111,8 @@ void StripView::paint(juce::Graphics& g) {
     if (!isThere()) return;
     StripParts::paint(g, static_cast<int>(index_), utf8(model_.mix().layout.enchanters[index_].label),
                       !model_.device().isPlayed(index_)                 ? "no output"
-                      : model_.mix().isSilent(static_cast<int>(index_)) ? "muted"
+                      : model_.mix().strips[index_].isMuted             ? "muted"
+                      : model_.mix().isSilent(static_cast<int>(index_)) ? "not soloed"
                                                                         : "");
 }
 

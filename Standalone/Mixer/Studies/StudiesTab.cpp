@@ -339,7 +339,7 @@ void StudiesTab::showFindings() {
     report.warnings.insert(report.warnings.end(), check_->warnings.begin(), check_->warnings.end());
     analysis_ =
         std::make_unique<AnalysisScreen>(model_, "Check of " + titleOf(protocol_->name), std::move(report));
-    analysis_->onClose = [this] { end(); };
+    analysis_->onClose = ending();
     host->setScreen(analysis_.get());
 }
 
@@ -448,7 +448,7 @@ std::string StudiesTab::begin() {
                                             answersChoice_.getSelectedId() == answersElsewhereId,
                                             std::move(pictures.value));
     font_ = std::make_unique<StudyFont>(*typeface);
-    screen_->onClose = [this] { end(); };
+    screen_->onClose = ending();
     host->setScreen(screen_.get());
     return {};
 }
@@ -458,8 +458,15 @@ void StudiesTab::analyse(std::vector<juce::File> files) {
     if (screen_ || analysis_ || !protocol_ || host == nullptr) return;
     if (files.empty()) files.emplace_back(run().trialFile().string());
     analysis_ = std::make_unique<AnalysisScreen>(model_, files);
-    analysis_->onClose = [this] { end(); };
+    analysis_->onClose = ending();
     host->setScreen(analysis_.get());
+}
+
+// It comes later, when the tab may be gone.
+std::function<void()> StudiesTab::ending() {
+    return [tab = SafePointer{this}] {
+        if (tab != nullptr) tab->end();
+    };
 }
 
 void StudiesTab::end() {

@@ -47,6 +47,7 @@ public:
     void analyse(std::vector<juce::File> files = {});
     AnalysisScreen* analysis() noexcept { return analysis_.get(); }
     StudyScreen* screen() noexcept { return screen_.get(); }
+    std::function<void()> ending();
     void end();
 
     /// What remains to be done before a study starts, one line each, as many as fit.
