@@ -71,6 +71,29 @@ TEST_F(Report, TheTestsAreThoseOfTheScriptBesideIt) {
     EXPECT_TRUE(has(page(), ", R version ")) << "whose figures these are";
 }
 
+TEST_F(Report, TimeOutsOfOtherProgramsAreToldAndWhoHasMoreTrialsLeavesNobodyOut) {
+    std::string rows = "who,place,felt,said,late,n\n";
+    for (const std::string who : {"P", "Q", "R"})
+        for (const std::string place : {"wrist", "ankle"})
+            for (int n = 1; n <= (who == "Q" ? 6 : 4); ++n)
+                rows += who + "," + place + "," + (n % 2 == 0 ? "rise,rise" : "fall") +
+                        (n % 2 == 0 ? ",false,"
+                         : n == 1   ? ",null,true,"
+                                    : ",rise,FALSE,") +
+                        std::to_string(n) + "\n";
+    write("t.csv", rows);
+    ASSERT_EQ(call("report t.csv --out late --columns "
+                   "participant=who,condition=place,stimulus=felt,response=said,ran_out=late,trial=n")
+                  .exitCode,
+              0);
+    const std::string late = read("late/index.html");
+    EXPECT_TRUE(has(late, "<td>Q</td><td class=\"number\">2</td><td></td><td>ran out of time</td>"))
+        << late.substr(late.find("Left out before"), 900);
+    EXPECT_FALSE(has(late, "<td>no answer</td>"));
+    EXPECT_FALSE(has(late, "fewer trials than others"));
+    if (hasProgram("Rscript")) EXPECT_TRUE(has(late, "share of trials that ran out of time by condition"));
+}
+
 TEST_F(Report, WordsInTheScriptAreTheSameInEveryLocale) {
     std::string rows = "participant,condition,a\\b sch\xc3\xb6n\n";
     for (const char* who : {"P", "Q"})

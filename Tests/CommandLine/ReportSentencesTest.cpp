@@ -150,8 +150,8 @@ std::vector<Sentence> sentences() {
          of(steps, 3)},
         {"Circles: trials of who has a function, larger of more. Thin lines: participants' functions, "
          "logistic, "
-         "guess rate 50 %, lapse rate up to 10 %. Thick: mean threshold and mean width. Dotted: mean "
-         "threshold. "
+         "guess rate 50 %, lapse rate up to 10 %; threshold: 75 %, apart from lapses. Thick: mean threshold, "
+         "and mean width of who has one (a step has none). Dotted: mean threshold. "
          "Column jnd: half of what lies between 0.25 and 0.75 of the function, a slope; no difference "
          "threshold of "
          "forced choices.",

@@ -43,10 +43,12 @@ TEST_F(ReportThresholds, OfConstantStimuliArePlanned) {
     if (!hasProgram("Rscript")) GTEST_SKIP() << "Rscript (Debian: r-base-core) is not here";
     writeThree(loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/frequency-constant.json").value);
     const std::string plan = call("study plan study.json --participants 4 --out plan.txt").out;
-    for (const char* test : {"- threshold and half interquartile range of a function: ",
-                             "likelihood, logistic, guess rate 50 %, lapse rate up to 10 %\n",
-                             "analysis of variance of threshold by condition",
-                             "pairs by t of half interquartile range by condition"})
+    for (const char* test :
+         {"- threshold and half interquartile range of a function: ",
+          "likelihood, logistic, guess rate 50 %, lapse rate up to 10 %; threshold: 75 %, apart from "
+          "lapses\n",
+          "analysis of variance of threshold by condition",
+          "pairs by t of half interquartile range by condition"})
         EXPECT_NE(plan.find(test), std::string::npos) << plan;
 }
 

@@ -53,6 +53,20 @@ TEST(InformationTransfer, FanosBoundShowsThatAPrintedValueIsImpossible) {
     EXPECT_NEAR(fanoBits(std::log2(25.0), 0.835, 25), 3.24, 0.005);
 }
 
+TEST(InformationTransfer, FanosBoundHoldsWhereResponsesAreNoStimulus) {
+    std::vector<IdentificationTrial> trials; // after "none" either may have been felt
+    for (const char* stimulus : {"a", "b"})
+        for (int i = 0; i < 20; ++i) trials.push_back({stimulus, i < 3 ? stimulus : "none"});
+    const auto it = informationTransfer(ConfusionMatrix{trials});
+    EXPECT_NEAR(it.bits, 0.15, 1e-12);
+    EXPECT_LE(it.leastBits, it.bits);
+    for (auto& trial : trials) trial.response = trial.response == "none" ? "none" : trial.stimulus;
+    for (int i = 0; i < 400; ++i) trials.push_back({"a", "a"}), trials.push_back({"b", "b"});
+    const auto most = informationTransfer(ConfusionMatrix{trials});
+    EXPECT_LE(most.leastBits, most.bits);
+    EXPECT_GT(most.leastBits, 0.7) << "a bound that says something";
+}
+
 /// A channel with a known transition matrix: on a line of `size` places, a normal blur of `blur` places.
 struct Channel {
     Channel(int size, double blur)

@@ -73,18 +73,19 @@ bool isUtf8(std::string_view text) noexcept {
     return true;
 }
 
+constexpr std::string_view yes[] = {"true", "TRUE", "True", "1", "1.0"}; // of other programs
+
 void takeOthersWords(CsvTable& table, const RowsLeftOut& leftOut) {
     if (!trialHeadOf(table.comments).empty()) return;
-    constexpr std::string_view right[] = {"true", "TRUE", "True", "1.0"},
-                               wrong[] = {"false", "FALSE", "False", "0.0"};
+    constexpr std::string_view wrong[] = {"false", "FALSE", "False", "0.0"};
     for (std::size_t c = 0; c < table.columns.size(); ++c)
         for (CsvRow& row : table.rows) {
             std::string& cell = row.cells[c];
             if (leftOut.isNoAnswer(table.columns[c], cell)) cell.clear();
             if (table.columns[c] == trialColumns::phase && holds(practice, cell))
                 cell = trialColumns::training;
-            if (table.columns[c] != "correct") continue;
-            if (holds(right, cell)) cell.assign(1, '1');
+            if (table.columns[c] != "correct" && table.columns[c] != trialColumns::ranOut) continue;
+            if (holds(yes, cell)) cell.assign(1, '1');
             if (holds(wrong, cell)) cell.assign(1, '0');
         }
 }
@@ -151,18 +152,20 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, Rows
     const auto who = std::ranges::find(columns, "participant") - columns.begin();
     const auto phase = std::ranges::find(columns, trialColumns::phase) - columns.begin();
     std::erase_if(table.rows, [&](const CsvRow& row) {
-        bool isRated = !hasScales, isAnswered = true, isTrial = false, isWhole = true;
+        bool isRated = !hasScales, isAnswered = true, isTrial = false, isWhole = true, hasTime = true;
         for (std::size_t c = 0; c < names.size(); ++c) {
             const std::string& ours = names[c].ours;
             const bool has = !row.cells[from[c]].empty() && !leftOut.isNoAnswer(ours, row.cells[from[c]]);
-            if (!trialColumns::has(ours))
+            if (ours == trialColumns::ranOut)
+                hasTime = !holds(yes, row.cells[from[c]]);
+            else if (!trialColumns::has(ours))
                 isRated |= has; // of scales one is enough
             else if (holds(answerColumns, ours))
                 isAnswered &= has;
             else if (ours != trialColumns::group) // nobody goes for want of one
                 isWhole &= has, isTrial |= ours != "participant";
         }
-        if (isWhole && isRated && isAnswered) return false;
+        if (isWhole && ((isRated && isAnswered) || !hasTime)) return false;
         const auto cell = [&](std::ptrdiff_t at) {
             return at < std::ssize(columns) ? row.cells[from[static_cast<std::size_t>(at)]] : std::string{};
         };

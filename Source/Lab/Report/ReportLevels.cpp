@@ -141,7 +141,10 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
         (model.guess > 0.0 ? ", guess rate " + numberText(std::round(1000.0 * model.guess) / 10.0) + " %"
                            : "") +
         ", lapse rate up to " + numberText(100.0 * model.mostLapses()) + " %" +
-        (model.guess > 0.0 ? "" : " at both ends");
+        (model.guess > 0.0
+             ? "; " + report.half + ": " + numberText(std::round(1000.0 * (0.5 + 0.5 * model.guess)) / 10.0) +
+                   " %, apart from lapses"
+             : " at both ends");
     std::vector<std::string> charts;
     for (const auto& condition : data.conditions)
         charts.push_back(psychometricChart(
@@ -151,12 +154,13 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
         charts,
         "Share of answers \u201c" + words.answer + "\u201d by " + words.level +
             ". Circles: " + (isFitted ? "trials of who has a function" : "all trials") + ", larger of more." +
-            (isFitted ? " Thin lines: participants' functions, " + report.functions + ". Thick: mean " +
-                            report.half + " and mean width. Dotted: mean " + report.half +
-                            ". Column jnd: half of what lies between 0.25 and 0.75 of the function" +
-                            (model.guess > 0.0 ? ", a slope; no difference threshold of forced choices."
-                                               : ": JND.")
-                      : ""));
+            (isFitted
+                 ? " Thin lines: participants' functions, " + report.functions + ". Thick: mean " +
+                       report.half + ", and mean width of who has one (a step has none). Dotted: mean " +
+                       report.half + ". Column jnd: half of what lies between 0.25 and 0.75 of the function" +
+                       (model.guess > 0.0 ? ", a slope; no difference threshold of forced choices."
+                                          : ": JND.")
+                 : ""));
 }
 
 void tellLevels(ReportBuilder& report) {

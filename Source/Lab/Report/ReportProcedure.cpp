@@ -174,7 +174,7 @@ void tellParticipants(ReportBuilder& report) {
         "participants", report.isSimulated(),
         std::string{"participant,number,observer,trials,training_trials,unanswered,median_response_s"} +
             (facts.people.empty() ? "" : ",age,sex,handedness,excluded") + (hasGroups ? ",group" : "")};
-    std::size_t most = 0;
+    std::map<std::size_t, std::size_t> counts; // people, by number of trials
     for (const auto& [code, own] : people) {
         table.cells(code, own.number, own.observer, own.main, own.training, own.unanswered + own.ranOut,
                     own.seconds.empty() ? std::nullopt : std::optional{median(own.seconds)});
@@ -186,8 +186,12 @@ void tellParticipants(ReportBuilder& report) {
             if (hasGroups) table.cells(one.group);
         }
         table.endRow();
-        if (!facts.isExcluded(code)) most = std::max(most, own.main);
+        if (!facts.isExcluded(code)) ++counts[own.main];
     }
+    // that most of them have; of two, the larger
+    const auto usual = std::ranges::max_element(counts, {}, [](const auto& one) {
+        return std::pair{one.second, one.first};
+    });
     report.addTable("participants.csv", table.text());
     for (const std::string& note : report.trials.notes) report.page.note(note);
     tellFacts(report, people);
@@ -216,8 +220,8 @@ void tellParticipants(ReportBuilder& report) {
             of(code, own.main + own.training, "", facts.person(code)->excluded, "all trials");
             continue;
         }
-        if (canCompare && own.main < most)
-            left.row(code, "", "", own.main, most, "fewer trials than others",
+        if (canCompare && own.main < usual->first)
+            left.row(code, "", "", own.main, usual->first, "fewer trials than others",
                      "tests that need what is lacking");
         of(code, own.ranOut, "", "ran out of time", "these trials");
         of(code, own.unanswered, "", "no answer", "these trials");

@@ -168,6 +168,8 @@ void runTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run)
         report.page.paragraph("stimulus: the protocol's factor " + factor + ".");
     if (const auto read = readCsvTable(table, testsTable); read && !read.value.rows.empty())
         tellTests(report.page, read.value);
+    else
+        report.page.paragraph("No test: no measure has levels of a factor, or groups, to be compared.");
     std::vector<std::string> tables;
     for (const auto& [name, text] : ran.value) tables.push_back(name);
     report.page.paragraph("Tables by R: " + joined(tables, ", ") + ".");

@@ -120,7 +120,7 @@ fewest.different <- 3 # people whose ranks say anything of all
 do.differ.few <- function(differ) sum(differ) < min(fewest.different, length(differ))
 few.differ <- function(differ) paste("of", length(differ), "people", sum(differ), if (sum(differ) == 1) "differs" else "differ", "between the levels: expected", fewest.different, "or more")
 # What a test by ranks did not count, and how it came to its p.
-ranks.note <- function(t, equal, words) paste(c(if (equal > 0) paste0(words, ": ", equal), if (grepl("rank", t$method)) if (grepl("exact", t$method)) "exact p" else "p by normal approximation"), collapse = "; ")
+ranks.note <- function(t, equal, words) paste(c(if (equal > 0) paste0(words, ": ", equal), if (grepl("rank", t$method)) if (grepl("exact", t$method)) "exact p, twice the smaller tail" else "p by normal approximation"), collapse = "; ")
 # A test that R refuses is a line that says why; the others go on.
 attempt <- function(test, effect, run) tryCatch(run, error = function(e) result(test, effect, "", NA, NA, NA, note = gsub("\n", "", conditionMessage(e), fixed = TRUE)))
 values.lacking <- function(people) paste("values are lacking of", paste(people, collapse = ", "))
@@ -205,7 +205,7 @@ mixed <- function(test, file, measure, within, between, where) {
   several <- unlist(lapply(seq_len(length(within) - 1), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE) # all of them are what is left
   random <- function(id, names) c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), ""))
   parts <- setNames(random("participant", within), random("id", sprintf("w%d", seq_along(within))))
-  remark(test, "model", length(unique(d$id)), paste0("of all people, secondary; ", "maximum likelihood, likelihood ratio of the models with and without the effect, sum contrasts, random ", paste0("(1 | ", parts, ")", collapse = " + ")))
+  remark(test, "model", length(unique(d$id)), paste0("of all who have a value, secondary; ", "maximum likelihood, likelihood ratio of the models with and without the effect, sum contrasts, random ", paste0("(1 | ", parts, ")", collapse = " + ")))
   model <- as.formula(paste("y ~ 0 + x +", paste0("(1 | ", names(parts), ")", collapse = " + ")))
   fit <- function(x) {
     m <- suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE)); variances <- vapply(lme4::VarCorr(m), `[`, 0, 1)
@@ -431,10 +431,15 @@ alike.for <- function(d, design) {
   block <- key(design$over); cell <- key(c(design$over, design$within)); own <- paste(d$participant, block)
   number <- function(by) tapply(cell, by, function(cells) length(unique(cells)))
   whole <- number(d$participant) == length(unique(cell))
+  full <- number(block); cells <- length(unique(key(design$within))); fewer <- names(full)[full < cells]
+  if (length(fewer) > 0 && any(full == cells) && sum(whole) >= max(2, length(whole) / 2)) { # what only some levels of a factor had is no difference between them
+    design$notes <- c(design$notes, paste0(paste(design$over, collapse = ", "), ": ", if (length(fewer) > most.levels) counted(length(fewer), "level") else paste(gsub("\r", " ", substring(fewer, 2), fixed = TRUE), collapse = ", "),
+                                           ": left out, not with all of ", paste(design$within, collapse = ", ")))
+    return(alike.for(d[!(block %in% fewer), ], design))
+  }
   if (length(design$over) == 0 || all(whole)) return(list(d = d, design = design))
   are.items <- length(unique(block)) > most.levels || all(tapply(d$participant, block, function(who) length(unique(who))) == 1)
   if (!are.items && sum(whole) >= max(2, length(whole) / 2)) return(list(d = d[d$participant %in% names(whole)[whole], ], design = design))
-  full <- number(block); cells <- length(unique(key(design$within)))
   if (any(full == cells)) full[] <- cells # a level that nobody has with all of them counts for nobody
   kept <- number(own)[own] == full[block]; people <- unique(d$participant[kept])
   over <- paste(design$over, collapse = ", "); applies <- length(people) >= if (are.items) length(whole) / 2 else 2
@@ -583,7 +588,9 @@ study <- function(study, scales = character(), points = character(), half = "thr
   for (column in c("condition", "stimulus")) if (any(grepl("\\.1$", factor.names(column, d))))
     remark(column, "factors", length(everybody), paste0(column, ".1, ", column, ".2: first and second part of ", d[[column]][1], " and so on"))
   # a trial that ran out of time has no other answer
-  for (s in unique(d$session[which(d$ran_out == "1")])) compare(paste("trials that ran out of time in", s), d[d$session == s, ], "ran_out", "ranks", c("group", "condition"))
+  at <- if ("session" %in% names(d)) d$session else rep("", nrow(d))
+  for (s in unique(at[which(d$ran_out == "1")]))
+    compare(paste0("share of trials that ran out of time", if (nzchar(s)) paste(" in", s)), d[at == s, ], "ran_out", "ranks", c("group", "condition"))
   # rows of a task, session by session where there are several; of tables without tasks those with the column
   each <- function(task, column, run) {
     if (!(column %in% names(d))) return(invisible())

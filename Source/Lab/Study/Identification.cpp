@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -113,11 +114,12 @@ std::size_t occupied(const std::vector<std::uint64_t>& counts) {
 
 } // namespace
 
-double fanoBits(double stimulusEntropyBits, double shareCorrect, std::size_t alternatives) noexcept {
-    const double wrong = 1.0 - shareCorrect;
+double fanoBits(double stimulusEntropyBits, double shareCorrect, std::size_t alternatives,
+                double shareOutside) noexcept {
+    const double wrong = 1.0 - shareCorrect, all = static_cast<double>(alternatives);
     const double binary = -plogp(wrong) - plogp(shareCorrect);
-    const double among = alternatives > 1 ? std::log2(static_cast<double>(alternatives - 1)) : 0.0;
-    return std::max(0.0, stimulusEntropyBits - binary - wrong * among);
+    const double among = alternatives > 1 ? (wrong - shareOutside) * std::log2(all - 1.0) : 0.0;
+    return std::max(0.0, stimulusEntropyBits - binary - among - shareOutside * std::log2(all));
 }
 
 InformationTransfer informationTransfer(const ConfusionMatrix& matrix) {
@@ -139,8 +141,10 @@ InformationTransfer informationTransfer(const ConfusionMatrix& matrix) {
     const auto parameters = cells - static_cast<std::ptrdiff_t>(occupied(rows) + occupied(columns)) + 1;
     it.biasBits =
         static_cast<double>(std::max<std::ptrdiff_t>(0, parameters)) / (2.0 * n * std::numbers::ln2);
-    it.leastBits =
-        fanoBits(entropyBits(rows, n), static_cast<double>(matrix.correct()) / n, matrix.stimuli());
+    const auto outside = std::accumulate(columns.begin() + static_cast<std::ptrdiff_t>(matrix.stimuli()),
+                                         columns.end(), std::uint64_t{0});
+    it.leastBits = fanoBits(entropyBits(rows, n), static_cast<double>(matrix.correct()) / n, matrix.stimuli(),
+                            static_cast<double>(outside) / n);
     it.mostBits = std::log2(static_cast<double>(matrix.stimuli()));
     it.trialsPerCell = n / static_cast<double>(matrix.stimuli() * matrix.responses());
     return it;

@@ -88,11 +88,13 @@ struct InformationTransfer {
 /// bits = sum_ij n_ij/n log2(n_ij n / (n_i. n_.j))
 /// biasBits = max(0, cells - rows - columns + 1) / (2 n ln 2), counting only cells that occurred. Cells that
 /// cannot occur add no bias, so this is Miller's correction without its overshoot for sparse matrices.
-/// leastBits = H(stimuli) - h(P_e) - P_e log2(M - 1), M = number of stimuli (Fano)
+/// leastBits = H(stimuli) - h(P_e) - (P_e - P_o) log2(M - 1) - P_o log2 M (Fano); M = number of stimuli, P_o
+/// = share of responses that are none of them, after which each may have been felt
 InformationTransfer informationTransfer(const ConfusionMatrix& matrix);
 
 /// Fano's lower bound, clamped to at least 0. Any thread.
-double fanoBits(double stimulusEntropyBits, double shareCorrect, std::size_t alternatives) noexcept;
+double fanoBits(double stimulusEntropyBits, double shareCorrect, std::size_t alternatives,
+                double shareOutside = 0.0) noexcept;
 
 /// Information transfer of one participant's trials.
 struct ParticipantTransfer {

@@ -373,6 +373,19 @@ if (sum(grepl("lacking of 02$", whole(d, character())$note)) < 2) fault("who nev
 # Seven points are ranks, however numbers are written.
 d$choice <- NULL; d$grip <- sprintf("%.1f", sample(1:7, 27, TRUE)); tests <- unique(whole(d, "grip")$test); d$grip <- as.integer(d$grip)
 if (!any(grepl("Friedman's", tests)) || !identical(tests, unique(whole(d, "grip")$test))) fault("4.0 and 4 call for two models")
+# Levels that were only felt in one condition are in no mean of conditions, though everybody has them; a person who lacks one of these is left out of nothing.
+d <- expand.grid(level_db = c(0, 3, 6, 9, 12), condition = c("glove", "pad"), participant = person(9), stringsAsFactors = FALSE)
+d <- d[!(d$condition == "glove" & d$level_db == 0) & !(d$condition == "pad" & d$level_db == 12) & !(d$participant == "03" & d$level_db == 0), ]
+d$value <- round(exp(d$level_db / 4 + 0.3 * (d$condition == "pad") + 0.2 * rnorm(nrow(d))), 3); rows(d); common <- d[!(d$level_db %in% c(0, 12)), ]
+wide <- with(aggregate(log10(value) ~ condition + participant, common, mean), tapply(`log10(value)`, list(participant, condition), mean))
+ours <- told(compare("magnitudes", table.of("trials.csv"), "value", "magnitudes")); own <- line(ours, "condition: glove - pad")
+same("levels of both conditions", own$difference, median(wide[, 1] - wide[, 2]))
+if (!identical(own$n, 9L) || !any(grepl("^level_db: 0, 12: left out, not with all of condition$", ours$note))) fault("levels of one condition alone are averaged over:", ours$note)
+# Of other programs' tables, time-outs are compared without sessions.
+d <- expand.grid(trial = 1:6, participant = person(7), condition = c("c1", "c2"), stringsAsFactors = FALSE); d$effort <- round(100 * runif(nrow(d)))
+d$ran_out <- ifelse(runif(nrow(d)) < ifelse(d$condition == "c2", 0.6, 0.1) & d$trial > 1, 1, 0); d$effort[d$ran_out == 1] <- NA
+ours <- whole(d, "effort"); late <- tapply(d$ran_out, list(d$participant, d$condition), mean)
+same("ran out, of other programs", ours$p[grepl("share of trials that ran out of time by condition", ours$test)], exact.p(round(late[, 1] - late[, 2], 9)))
 # Nothing is compared between people whose means are of unequal conditions: here group h is the later one, and nobody differs by group.
 d <- expand.grid(condition = c("c1", "c2", "c3"), participant = person(12), stringsAsFactors = FALSE); d$group <- ifelse(as.integer(d$participant) <= 6, "g", "h"); d$y <- rnorm(36, 60 * (d$condition == "c3"))
 d <- d[!(d$group == "g" & d$condition == "c3" & d$participant != "02") & !(d$group == "h" & d$condition == "c1" & d$participant != "08"), ]; rows(d)
