@@ -3,27 +3,40 @@
 #include "DeviceNoise.h"
 #include "Live/Devices/AlsaDevice.h"
 #include "Live/Devices/AudioDevice.h"
+#include "Live/Session/ThisThread.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <pthread.h>
+#include <sched.h>
 #include <unistd.h>
 #include <vector>
 
 namespace physvib::test {
 namespace {
 
+/// The policy of the system's scheduler, and the priority.
+std::pair<int, int> priorityOfThis() {
+    int policy = -1;
+    sched_param given{};
+    pthread_getschedparam(pthread_self(), &policy, &given);
+    return {policy, given.sched_priority};
+}
+
 /// A null device has no clock: after so many frames this user takes its time.
 struct SlowUser final : DeviceUser {
     NoiseUser noise;
     std::atomic<int> inputs{0};
     std::atomic<float> loudest{0.0f};
+    std::pair<int, int> priority; // of the first block
     void aboutToStart(AudioDevice& device) override { noise.aboutToStart(device); }
     void stopped() override { noise.stopped(); }
     void block(const float* const* in, int channels, float* const* out, int outputs,
                int frames) noexcept override {
+        if (noise.blocks == 0) priority = priorityOfThis();
         if (noise.frames > 8192) std::this_thread::sleep_for(std::chrono::milliseconds{5});
         inputs = channels;
         for (int k = 0; k < channels; ++k)
@@ -113,6 +126,14 @@ TEST_F(AlsaDriverInRealTime, ADeviceWithFloatsGetsTheUsersSamplesToTheBit) {
                   std::bit_cast<std::uint32_t>(noise(frame, 1)));
         if (HasFailure()) break;
     }
+}
+
+TEST_F(AlsaDriverInRealTime, AudioComesBeforeTheWorldWhereTheSystemGivesPriorities) {
+    std::pair<int, int> ofWorld;
+    std::thread{[&] { raiseThreadPriority(false), ofWorld = priorityOfThis(); }}.join();
+    ASSERT_NO_FATAL_FAILURE(play("Hands (1)"));
+    EXPECT_EQ(user.priority.first, ofWorld.first);
+    if (ofWorld.first == SCHED_RR) EXPECT_EQ(user.priority.second, ofWorld.second + 1);
 }
 
 TEST_F(AlsaDriverInRealTime, ADeviceWithoutFloatsGetsThemRoundedAndNeverWrapped) {

@@ -236,7 +236,7 @@ TEST(Tempo, AChangeMovesTheDropsThatAreToCome) {
     expectTimes(playedBy(rain(), 120.0, 0.0, true, 480, faster), {0.5, 1.0, 1.3, 1.55, 1.8, 2.05, 2.3, 2.55});
 }
 
-TEST(Tempo, LiveIsTheBounceWithChangesAStopAndALoop) {
+TEST(TempoInRealTime, LiveIsTheBounceWithChangesAStopAndALoop) {
     const auto song = [](TestHost& host, int block) {
         auto& head = host.playHead;
         head.perMinute = block < 60 ? 120.0 : 120.0 + block; // then it rises in each block

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Plays on an ALSA device.
 #include "Live/Devices/AlsaDevice.h"
+#include "Live/Session/ThisThread.h"
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -107,6 +108,7 @@ bool AlsaDevice::moveAll(Direction& direction) noexcept {
 }
 
 void AlsaDevice::run() noexcept {
+    raiseThreadPriority(true);
     const int inputs = static_cast<int>(in_.active.size()), outputs = static_cast<int>(out_.active.size());
     if (inputs > 0) in_.pcm.begin();
     while (!isEnding_) {

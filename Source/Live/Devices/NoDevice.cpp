@@ -56,7 +56,7 @@ public:
 private:
     void run() {
         using Clock = std::chrono::steady_clock;
-        raiseThreadPriority();
+        raiseThreadPriority(true);
         std::vector<std::vector<float>> out(active_.size(),
                                             std::vector<float>(static_cast<std::size_t>(block_)));
         std::vector<float*> at;

@@ -18,7 +18,7 @@ ThreadDriver::~ThreadDriver() {
 }
 
 void ThreadDriver::run() {
-    raiseThreadPriority();
+    raiseThreadPriority(false);
     while (!isOver()) {
         const std::int64_t begin = steadyNs();
         // a thread that draws a world too slow for real time waits a step or two, not until it has caught up

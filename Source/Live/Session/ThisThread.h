@@ -4,8 +4,9 @@
 
 namespace physvib {
 
-/// Realtime priority for the calling thread, where the system permits; otherwise nothing changes.
-void raiseThreadPriority() noexcept;
+/// Real-time priority for the calling thread, where the system permits; otherwise nothing changes. A thread
+/// of audio comes before one that steps a world.
+void raiseThreadPriority(bool isAudio) noexcept;
 
 /// Processor time of the calling thread since it began, s: without waiting and other programs. Any thread but
 /// the render thread (R).

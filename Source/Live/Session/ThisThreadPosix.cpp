@@ -9,11 +9,11 @@
 
 namespace physvib {
 
-void raiseThreadPriority() noexcept {
+void raiseThreadPriority(bool isAudio) noexcept {
     // half of the range, as other programs that play sound: below the threads of audio servers
     const int lowest = sched_get_priority_min(SCHED_RR), highest = sched_get_priority_max(SCHED_RR);
     sched_param wanted{};
-    wanted.sched_priority = (lowest + highest) / 2;
+    wanted.sched_priority = (lowest + highest) / 2 - (isAudio ? 0 : 1);
     pthread_setschedparam(pthread_self(), SCHED_RR, &wanted); // fails without the privilege
 }
 

@@ -6,7 +6,9 @@
 
 namespace physvib {
 
-void raiseThreadPriority() noexcept { SetThreadPriority(GetCurrentThread(), THREAD_PRIORITY_TIME_CRITICAL); }
+void raiseThreadPriority(bool isAudio) noexcept {
+    SetThreadPriority(GetCurrentThread(), isAudio ? THREAD_PRIORITY_TIME_CRITICAL : THREAD_PRIORITY_HIGHEST);
+}
 
 // they need the COM apartment of that thread
 bool areDriversBoundToTheirThread() noexcept { return true; }
