@@ -119,7 +119,7 @@ std::vector<Sentence> sentences() {
     return {
         {"<td>participants</td><td></td><td class=\"number\">3</td>", of(grid, 3), of(grid, 2)},
         {"no answer</td><td>these trials", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
-        {"fewer trials than others</td><td>tests that need what is lacking",
+        {"</td><td>tests of what is lacking, if any",
          of(grid, 3,
             [](Row& row) {
                 if (row["participant"] == "P2" && row["condition"] == "b") row["participant"].clear();

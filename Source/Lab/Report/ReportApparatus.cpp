@@ -36,7 +36,8 @@ void tellApparatus(ReportBuilder& report) {
     Kinds kinds;
     std::size_t unknown = 0;
     for (const CsvRow& row : all.rows) {
-        if (cell(row, columns::left).empty() && cell(row, "stimulus").empty() && cell(row, "parts").empty())
+        if (report.trials.knowTasks() && cell(row, columns::left).empty() && cell(row, "stimulus").empty() &&
+            cell(row, "parts").empty())
             continue;
         if (cell(row, columns::version).empty()) {
             ++unknown;

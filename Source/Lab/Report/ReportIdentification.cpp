@@ -180,11 +180,14 @@ void tellPlaces(ReportBuilder& report) {
             const double at = parseNumber<double>(cell(row, axis)).value_or(0.0);
             return at < 0.0 || at > 1.0;
         };
-        const auto outside = std::ranges::count_if(
-            report.trials.all.rows, [&](const CsvRow& row) { return lies(row, "x") || lies(row, "y"); });
+        std::size_t main = 0, outside = 0;
+        for (const CsvRow& row : report.trials.all.rows) {
+            if (cell(row, trialColumns::phase) == trialColumns::training) continue;
+            ++main;
+            outside += lies(row, "x") || lies(row, "y");
+        }
         tellPlaceErrors(report);
-        return report.page.note(std::to_string(outside) + " of " +
-                                counted(report.trials.all.rows.size(), "place") +
+        return report.page.note(std::to_string(outside) + " of " + counted(main, "place") +
                                 (hasEdges(report) ? " beyond the named edges" : " outside 0 to 1") +
                                 ": no territories and grids");
     }

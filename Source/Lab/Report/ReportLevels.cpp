@@ -176,6 +176,10 @@ void tellLevels(ReportBuilder& report) {
         return data && std::ranges::any_of(data.value.conditions.front().trials,
                                            [=](const LevelTrial& trial) { return trial.kind == kind; });
     };
+    if (!data && !report.trials.knowTasks()) { // of other programs: numbers, which analysis.R compares
+        report.page.heading("Values");
+        return report.page.note("no power law: " + data.error);
+    }
     const bool hasThresholds = has(Kind::staircase) || has(Kind::quest);
     std::vector<std::string> kinds;
     if (hasThresholds || !data) kinds.emplace_back("Thresholds");

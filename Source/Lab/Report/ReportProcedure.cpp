@@ -201,8 +201,8 @@ void tellParticipants(ReportBuilder& report) {
                      "participant,condition,session,trials,planned,why,left_out"};
     std::size_t rows = report.trials.leftOut.rows;
     for (const UnfinishedRun& run : unfinishedRuns(report.trials))
-        left.row(run.participant, run.condition, run.session, run.trials, run.planned, run.why(),
-                 run.leftOut());
+        left.row(run.participant, run.condition, run.session, run.trials,
+                 (run.isFixed ? "" : "at most ") + std::to_string(run.planned), run.why(), run.leftOut());
     const bool isAdaptive = hasAdaptiveRows(report.trials);
     if (isAdaptive)
         if (const auto data = readFinishedLevels(report.options()))
@@ -221,8 +221,9 @@ void tellParticipants(ReportBuilder& report) {
             continue;
         }
         if (canCompare && own.main < usual->first)
-            left.row(code, "", "", own.main, usual->first, "fewer trials than others",
-                     "tests that need what is lacking");
+            left.row(code, "", "", own.main, "",
+                     "fewer trials than most (" + std::to_string(usual->first) + ")",
+                     "tests of what is lacking, if any");
         of(code, own.ranOut, "", "ran out of time", "these trials");
         of(code, own.unanswered, "", "no answer", "these trials");
         rows -= std::min(rows, own.unanswered);

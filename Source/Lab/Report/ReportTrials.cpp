@@ -371,7 +371,8 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
                                   plan.adaptedAlternative() != nullptr,
                                   missingOf(key, isFixed ? static_cast<int>(most) : 0),
                                   isOver,
-                                  plan.isTraining};
+                                  plan.isTraining,
+                                  isFixed};
                 if (!isOver || !run.missing.empty()) unfinished.push_back(run);
                 run.cutShort = cutShort;
                 if (isOver && !cutShort.empty() && !plan.isTraining) unfinished.push_back(std::move(run));

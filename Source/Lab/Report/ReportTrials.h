@@ -102,6 +102,7 @@ struct UnfinishedRun {
     std::string missing{};   ///< "trials 3, 8 to 9": not in the file, though later ones are
     bool isOver = false;     ///< its other rows bring it to its end
     bool isTraining = false;
+    bool isFixed = true;    ///< so many are planned
     std::string cutShort{}; ///< "a staircase ended at 40 trials with 5 of 6 reversals": nothing else is amiss
 
     std::string why() const;     ///< "not finished", "lacks trials 3, 8 to 9", or cutShort

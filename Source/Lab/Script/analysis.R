@@ -286,6 +286,9 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
     }
   }
 }) }
+# Whether a participant has more trials of one combination of levels than of another, so that a mean over trials is none over levels.
+has.unequal <- function(d, factors) any(tapply(do.call(paste, c(list(character(nrow(d))), lapply(factors, function(f) level(d, f)), sep = "\r")), d$participant, function(own) length(unique(table(own)))) > 1)
+over.trials <- "levels have unequal numbers of trials: a participant's share is of all trials, and levels count by theirs"
 # Participants' shares of an alternative against chance: of all trials, each level of a factor, each combination of levels. Signed ranks; where all lean
 # equally far, as where they are unanimous, exact binomials of how many lean to it. Of each alternative the trials count that offered it.
 choices <- function(test, file, factors = NULL, where = character()) { attempt(test, "all", {
@@ -305,6 +308,7 @@ choices <- function(test, file, factors = NULL, where = character()) { attempt(t
     alike <- alike.for(lone$d, design.of(lone$d)); d <- alike$d; design <- alike$design; factors <- c(design$within, design$between)
     for (note in c(lone$notes, design$notes)) remark(test, "factors", length(unique(d$participant)), note)
   } else design <- list(within = Filter(function(f) any(tapply(level(d, f), d$participant, function(l) length(unique(l))) > 1), factors))
+  if (length(design$within) > 0 && has.unequal(d, design$within)) remark(test, "factors", length(unique(d$participant)), over.trials)
   cell <- do.call(paste, c(list(character(nrow(d))), lapply(design$within, function(f) level(d, f)), sep = "\r"))
   whole.in <- function(of) { n <- tapply(cell[of], d$participant[of], function(own) length(unique(own))); names(n)[n == length(unique(cell[of]))] }
   unknown <- if ("group" %in% factors) groupless(d) # counts in no line of a group
@@ -585,8 +589,6 @@ study <- function(study, scales = character(), points = character(), half = "thr
   is.told <- "task" %in% names(d); everybody <<- unique(d$participant); trials <<- d; repeated <<- within
   if (is.told) for (column in setdiff(c("session", "correct", "level_db"), names(d))) d[[column]] <- rep("", nrow(d))
   if (!is.told) points <- union(points, Filter(function(scale) all(d[[scale]] %in% c("", "NA") | suppressWarnings(as.numeric(d[[scale]])) %in% 1:7), scales)) # of other programs
-  for (column in c("condition", "stimulus")) if (any(grepl("\\.1$", factor.names(column, d))))
-    remark(column, "factors", length(everybody), paste0(column, ".1, ", column, ".2: first and second part of ", d[[column]][1], " and so on"))
   # a trial that ran out of time has no other answer
   at <- if ("session" %in% names(d)) d$session else rep("", nrow(d))
   for (s in unique(at[which(d$ran_out == "1")]))
@@ -613,6 +615,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
   })
   spoken <- c(spoken, threshold = half); if (half == "threshold") spoken[["jnd"]] <- "half interquartile range" # of forced choices a slope
   from("identification.csv", "percent_correct")
+  if (file.exists("identification.csv") && has.unequal(d, intersect(c("condition", "stimulus"), names(d)))) remark("percent correct", "factors", length(everybody), over.trials)
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
     compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"), over = "target")
@@ -626,7 +629,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
       }
     }
   })
-  from("places.csv", c("distance", "variable"))
+  from("places.csv", c("distance", if (!all(c("target_column", "target_row") %in% names(d))) "variable")) # the same as above
   has.functions <- function(words) file.exists("psychometric-stimuli.csv") && any(endsWith(table.of("psychometric-stimuli.csv")$condition, words))
   each("choose", if ("choice" %in% names(d)) "choice" else "response", function(own, words) {
     if (is.told) own <- own[own$correct == "" | own$level_db == "", ] # levels that follow the answers
@@ -674,6 +677,8 @@ study <- function(study, scales = character(), points = character(), half = "thr
   each("adjust", "value", function(own, words) if (is.told) compare(paste0("matched levels", words), own, "value"))
   each("estimate", "value", function(own, words) compare(paste0("magnitudes", words), own, "value", "magnitudes"))
   from("power-law.csv", "exponent")
+  for (column in c("condition", "stimulus")) if (any(grepl(paste0(column, ".1"), c(results$test, results$effect), fixed = TRUE)))
+    remark(column, "factors", length(everybody), paste0(column, ".1, ", column, ".2: first and second part of ", d[[column]][1], " and so on"))
   finish(study)
 }
 finish <- function(study) {
