@@ -174,7 +174,7 @@ void tellParticipants(ReportBuilder& report) {
         "participants", report.isSimulated(),
         std::string{"participant,number,observer,trials,training_trials,unanswered,median_response_s"} +
             (facts.people.empty() ? "" : ",age,sex,handedness,excluded") + (hasGroups ? ",group" : "")};
-    std::map<std::size_t, std::size_t> counts; // people, by number of trials
+    std::vector<std::size_t> counts; // of trials
     for (const auto& [code, own] : people) {
         table.cells(code, own.number, own.observer, own.main, own.training, own.unanswered + own.ranOut,
                     own.seconds.empty() ? std::nullopt : std::optional{median(own.seconds)});
@@ -186,11 +186,11 @@ void tellParticipants(ReportBuilder& report) {
             if (hasGroups) table.cells(one.group);
         }
         table.endRow();
-        if (!facts.isExcluded(code)) ++counts[own.main];
+        if (!facts.isExcluded(code)) counts.push_back(own.main);
     }
-    // that most of them have; of two, the larger
-    const auto usual = std::ranges::max_element(counts, {}, [](const auto& one) {
-        return std::pair{one.second, one.first};
+    const auto have = [&](std::size_t count) { return 2 * std::ranges::count(counts, count); };
+    const auto usual = std::ranges::find_if(counts, [&](std::size_t count) {
+        return have(count) > std::ssize(counts); // where more than half have as many
     });
     report.addTable("participants.csv", table.text());
     for (const std::string& note : report.trials.notes) report.page.note(note);
@@ -220,9 +220,8 @@ void tellParticipants(ReportBuilder& report) {
             of(code, own.main + own.training, "", facts.person(code)->excluded, "all trials");
             continue;
         }
-        if (canCompare && own.main < usual->first)
-            left.row(code, "", "", own.main, "",
-                     "fewer trials than most (" + std::to_string(usual->first) + ")",
+        if (canCompare && usual != counts.end() && own.main < *usual)
+            left.row(code, "", "", own.main, "", "fewer trials than most (" + std::to_string(*usual) + ")",
                      "tests of what is lacking, if any");
         of(code, own.ranOut, "", "ran out of time", "these trials");
         of(code, own.unanswered, "", "no answer", "these trials");
