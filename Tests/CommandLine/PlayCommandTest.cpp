@@ -15,7 +15,7 @@ TEST_F(PlayCommand, ADeviceThatIsNotThereIsAFailureAndNothingElseIsPlayedOn) {
 TEST_F(PlayCommand, WithoutADeviceItSaysWhatThereIsAndWhatToType) {
     const auto left = call("play drop"), listed = call("devices");
     EXPECT_EQ(left.exitCode, 2);
-    EXPECT_EQ(left.err, "physvib: play: expected --device, --board, or both\n");
+    EXPECT_EQ(left.err, "physvib: play: expected --device, --board or --pad\n");
     const auto begin = left.out.find("physvib play drop --device \"");
     ASSERT_NE(begin, std::string::npos) << left.out;
     EXPECT_EQ(listed.out.rfind(left.out.substr(0, left.out.rfind('\n', begin) + 1), 0), 0u)

@@ -50,6 +50,16 @@ TEST(MixerModel, StartsSilentIfItIsAsked) {
     EXPECT_TRUE(model.output().isSilent());
 }
 
+TEST(MixerModel, WhatASessionWasPlayedWithAndTheMixerLacksIsTold) {
+    SavedSession session;
+    EXPECT_TRUE(lackingOf(session).isEmpty());
+    session.equalised[1] = {{175.0, 8.0}, {100.0, 300.0}};
+    EXPECT_TRUE(lackingOf(session).contains("equalisers of its own, which the mixer has not"));
+    session = {};
+    session.shaping.truncation = 0.1;
+    EXPECT_TRUE(lackingOf(session).contains("method, remapping and gain of its own"));
+}
+
 TEST(MixerModel, ASavedSessionIsAsLongAsItWasPlayed) {
     MixerModel model{onlyNoDevice(), noDevice};
     ASSERT_TRUE(runUntil([&] { return model.look().sessionNs > 200'000'000; }));

@@ -201,7 +201,7 @@ int leaveWithoutDevice(const std::string& scene) {
     std::cout << (devices.empty() ? "no audio device was found; for nobody, in time: " : "for example: ")
               << proposedCall(scene, devices) << '\n'
               << std::flush;
-    return leave(exitUsage, "play: expected --device, --board, or both");
+    return leave(exitUsage, "play: expected --device, --board or --pad");
 }
 
 int runPlay(const OptionTable& command, PlayOptions& o) {

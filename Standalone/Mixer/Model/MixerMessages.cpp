@@ -3,6 +3,7 @@
 #include "Mixer/Model/MixerMessages.h"
 #include "Core/NameNumbers.h"
 #include "Live/Documents/Mix.h"
+#include "Live/Documents/SessionFile.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/Drawing/FeltTrial.h"
 #include <algorithm>
@@ -135,6 +136,15 @@ void hintOnMaterial(MixerModel& model, int material) {
             hintOnMaterial(model, material);
         };
     showHint(model, asked.name, whyNotFelt(scene, material), std::move(mend));
+}
+
+juce::String lackingOf(const SavedSession& session) {
+    juce::StringArray lacking;
+    if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown)) lacking.add("equalisers");
+    if (session.shaping != EventShaping{}) lacking.add("method, remapping and gain");
+    if (lacking.isEmpty()) return {};
+    return "This session was played with " + lacking.joinIntoString(", ") +
+           " of its own, which the mixer has not: it feels otherwise here; physvib render has them";
 }
 
 juce::String whySilent(const MixerModel& model) {

@@ -14,6 +14,7 @@
 namespace physvib {
 
 class MixerModel;
+struct SavedSession;
 
 /// Any thread.
 inline juce::String utf8(const std::string& words) { return juce::String::fromUTF8(words.c_str()); }
@@ -102,6 +103,9 @@ juce::String placeText(const Scene& scene, const CollisionEvent& hit);
 /// this; takes the message away if it would be. Message thread.
 void hintOnMaterial(MixerModel& model, int material);
 void hintOnBody(MixerModel& model, const std::string& body);
+
+/// What a session was played with and the mixer has not: a message, or empty. Any thread.
+juce::String lackingOf(const SavedSession& session);
 
 /// Why these levels let nothing be felt, whatever plays; empty: they do not. Any thread.
 juce::String whySilent(const MixerModel& model);

@@ -570,15 +570,20 @@ Result<Mix> mixWith(Mix mix, const juce::File& file) {
 bool MixerWindow::load(const juce::File& file, const juce::File& document, bool isOwn) {
     auto session = loadSession(pathOf(file));
     if (session) {
+        const auto tellLacking = [&] {
+            if (const auto words = lackingOf(session.value); words.isNotEmpty())
+                model_->messages().add({words, false, {}, "lacking"});
+            return true;
+        };
         if (files_.isOwn(file, outputInUse())) { // nobody has changed it since
             play(mixOf(session.value), document, endsPaused(session.value));
-            return true;
+            return tellLacking();
         }
         // the copy may lack the last seconds; who has used this run has set other levels since
         const bool isAsLeft = isOwn && before_ && !isChanged();
         playLowered(isAsLeft ? *before_ : limits(), mixOf(session.value), document,
                     endsPaused(session.value));
-        return true;
+        return tellLacking();
     }
     if (!model_) play(firstMix(), {});
     say(utf8(session.error));
