@@ -173,7 +173,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
     if (d > 1 && left.df >= d) attempt(test, paste(own, "sphericity"), {
       m <- mauchly.test(lm(cells ~ x - 1), T = t(contrasts[[i]]))
       if (is.nan(m$p.value)) stop("nobody differs from the others in it")
-      result(test, paste(own, "sphericity"), "Mauchly W", m$statistic, m$p.value, n, kind = "assumption")
+      result(test, paste(own, "sphericity"), "Mauchly W", m$statistic, m$p.value, n, kind = "assumption", note = "p as R's mauchly.test has it")
     })
   }
   if (length(between) > 0) attempt(test, "groups homogeneity", {
