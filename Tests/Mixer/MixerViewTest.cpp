@@ -121,7 +121,7 @@ TEST(MixerView, WhatComesLaterHasARingAsWell) {
     model.script().stop();
     model.dispatchPendingMessages();
     EXPECT_NE(find(view, "The script begins at"), nullptr);
-    EXPECT_TRUE(find(view, "Script of hands")->isVisible());
+    EXPECT_TRUE(runUntil([&] { return view.refresh(), find(view, "Script of hands")->isVisible(); }));
     expectRings(view.world());
     view.setQuestion(std::make_unique<QuestionCard>(
         "Take it?", "It is there.", std::vector<QuestionCard::Answer>{{"Yes", [] {}}, {"No", [] {}}}));

@@ -143,7 +143,7 @@ juce::String lackingOf(const SavedSession& session) {
     if (std::ranges::any_of(session.equalised, &EqualisedActuator::isKnown)) lacking.add("equalisers");
     if (session.shaping != EventShaping{}) lacking.add("method, remapping and gain");
     if (lacking.isEmpty()) return {};
-    return "This session was played with " + lacking.joinIntoString(", ") +
+    return "This session has " + lacking.joinIntoString(", ") +
            " of its own, which the mixer has not: it feels otherwise here; physvib render has them";
 }
 
