@@ -404,9 +404,11 @@ void WorldPanel::refresh(const MixerMoment& moment) {
     pane_.spawnDueBodies();
     if (model_.script().isRecording() || script_.isVisible()) script_.refresh(pane_.tool() == DrawTool::hand);
     placeInspector();
+    static constexpr decltype(moment.meters.peaks) none{};
+    const bool isFelt = whyMuted().isEmpty();
+    const auto& peaks = isFelt ? moment.meters.peaks : none; // a badge that glows says that it is felt
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits,
-                  std::span{moment.meters.peaks}.first(static_cast<std::size_t>(model_.mix().count())),
-                  whyMuted().isEmpty()});
+                  std::span{peaks}.first(static_cast<std::size_t>(model_.mix().count())), isFelt});
 }
 
 void WorldPanel::edit(const juce::String& name, const Action& action) {
