@@ -177,7 +177,8 @@ void Attachment::remove(const b2Fixture& fixture) {
 void Attachment::step(float stepSeconds, int velocityIterations, int positionIterations) {
     if (!(stepSeconds >= 0.0F) || world_ == nullptr) return;
     beginStep(static_cast<double>(stepSeconds));
-    world_->Step(stepSeconds, velocityIterations, positionIterations); // within it nothing can be destroyed
+    parts_->bodies.beginStep(); // within it nothing can be destroyed
+    world_->Step(stepSeconds, velocityIterations, positionIterations);
     finishStep();
 }
 
@@ -195,6 +196,7 @@ void Attachment::beginStepUntil(std::int64_t endNs) {
     parts_->sweeps.beginStep(*world_, stepSeconds);
     parts_->bodies.beginStep();
     parts_->events.beginStep(endNs, toVector(world_->GetGravity()), parts_->sweeps.largestMassKg());
+    parts_->bodies.invalidate(); // the game may destroy bodies before its step
 }
 
 void Attachment::endStep() {

@@ -172,7 +172,7 @@ private:
     double largestMassKg_ = 0.0;
     std::vector<Sweep> sweeps_; // of all bodies, static ones without a state, then without a body
     IntegerMap indices_;        // indices into sweeps_, by body that is not static
-    std::uint64_t census_ = 0;
+    std::uint64_t census_ = 1;
 };
 
 /// Bodies are identified by their addresses. Box2D has no callback for a body whose fixtures were destroyed

@@ -169,7 +169,7 @@ void runTests(ReportBuilder& report, StudyReport& made, const ScriptRunner& run)
     if (const auto read = readCsvTable(table, testsTable); read && !read.value.rows.empty())
         tellTests(report.page, read.value);
     else
-        report.page.paragraph("No test: no measure has levels of a factor, or groups, to be compared.");
+        report.page.paragraph("No test: there is nothing to be compared over two participants or more.");
     std::vector<std::string> tables;
     for (const auto& [name, text] : ran.value) tables.push_back(name);
     report.page.paragraph("Tables by R: " + joined(tables, ", ") + ".");
