@@ -224,6 +224,28 @@ TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
     EXPECT_TRUE(played == made.events);
 }
 
+TEST(Session, ABlockThatStepsTheWorldItselfIsNoStallToADriverThatComesFirst) {
+    Session session{shakeTheBoxSetup(0.05)};
+    session.prepare(rate, 8192);
+    session.advance();
+    Block block, ahead;
+    for (int i = 0; i < 20; ++i) {
+        for (int n = 0; n < 4; ++n)
+            session.render(block.at.data(), 2640, RenderMode::realtime); // 220 of 230 ms
+        std::thread host;
+        session.advance([&](std::int64_t) {
+            const auto before = session.timeline().framesRendered();
+            host = std::thread{[&] { session.render(ahead.at.data(), 8192, RenderMode::offline); }};
+            while (session.timeline().framesRendered() == before) std::this_thread::yield();
+            std::this_thread::sleep_for(std::chrono::milliseconds{2}); // it waits for the world
+            return false;
+        });
+        session.advance();
+        host.join();
+        ASSERT_EQ(session.world().slippedNs(), 0) << i;
+    }
+}
+
 TEST(Session, AnotherRateAndBlockLoseNoEventAndNoSound) {
     const auto s = shakeTheBoxSetup(0.02);
     Session session{s};

@@ -66,16 +66,19 @@ void WorldRunner::prepare() {
 }
 
 void WorldRunner::resume(const FrameClock& clock) {
-    catchUp(); // the new output latency may allow less lag than the old
+    catchUp(time_.nowNs()); // the new output latency may allow less lag than the old
     if (restartFrame_ >= 0) restartFrame_ = clock.at(time_.sessionNs(restartFrame_)).frame;
 }
 
 int WorldRunner::advance(const StepWatch& keepGoing) {
     const std::lock_guard lock{mutex_};
+    // R says that it steps the world itself before it tells the frames of that block: whoever knows of them
+    // knows that too, and takes them for no stall
+    const std::int64_t now = time_.nowNs();
     if (offline_.load(std::memory_order_acquire)) return 0;
     isDriven_.store(true, std::memory_order_release);
     startRequestedRun();
-    const int steps = catchUp(keepGoing);
+    const int steps = catchUp(now, keepGoing);
     if (isShown_.load(std::memory_order_relaxed)) showPoses();
     return steps;
 }
@@ -91,17 +94,16 @@ std::int64_t WorldRunner::nextStepNs() const {
     return pulse_.lastNs() + (std::max<std::int64_t>(0, ahead) / blockNs + 1) * blockNs;
 }
 
-int WorldRunner::catchUp(const StepWatch& keepGoing) {
-    const std::int64_t now = time_.nowNs();
-    if (const std::int64_t lag = now - world_.timeNs(); lag > time_.longestLagNs()) {
+int WorldRunner::catchUp(std::int64_t nowNs, const StepWatch& keepGoing) {
+    if (const std::int64_t lag = nowNs - world_.timeNs(); lag > time_.longestLagNs()) {
         slippedNs_ += lag - time_.law().safeLagNs();
         world_.standStill(lag - time_.law().safeLagNs());
     }
-    takeDue(now);
-    callback_.handTo(world_); // inputs that R made before `now` are in the queue already
+    takeDue(nowNs);
+    callback_.handTo(world_); // inputs that R made before `nowNs` are in the queue already
     int steps = 0;
-    for (; world_.timeNs() < now && (steps == 0 || !keepGoing || keepGoing(world_.timeNs())); ++steps) {
-        moveWorld(now);
+    for (; world_.timeNs() < nowNs && (steps == 0 || !keepGoing || keepGoing(world_.timeNs())); ++steps) {
+        moveWorld(nowNs);
         handOver(); // the next block may begin before the last step
     }
     handOver();
@@ -172,15 +174,13 @@ void WorldRunner::takeDue(std::int64_t untilNs) {
 }
 
 bool WorldRunner::beginBlock(RenderMode mode) noexcept {
-    if (mode == RenderMode::realtime)
-        offline_.store(false, std::memory_order_release);
-    else
-        isDriven_.store(true, std::memory_order_release);
+    const bool isOffline = mode == RenderMode::offline;
+    offline_.store(isOffline, std::memory_order_release);
+    if (isOffline) isDriven_.store(true, std::memory_order_release);
     return isDriven_.load(std::memory_order_acquire);
 }
 
 void WorldRunner::beginOffline(std::int64_t endNs) {
-    offline_.store(true, std::memory_order_release);
     startRequestedRun();
     takeDue(endNs);
     callback_.handTo(world_);

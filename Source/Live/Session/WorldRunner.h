@@ -144,7 +144,7 @@ private:
     std::int64_t moveLog(SessionLog& log); // returns the session time up to which the world has been stepped
 
     // With the world mutex held:
-    int catchUp(const StepWatch& keepGoing = {});
+    int catchUp(std::int64_t nowNs, const StepWatch& keepGoing = {});
     void beginOffline(std::int64_t endNs);
     void moveWorld(std::int64_t untilNs);
     void startRequestedRun();
