@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace physvib {
 
@@ -64,13 +65,14 @@ private:
     /// space.
     static std::size_t numberAt(char before, std::string_view text, double& number) noexcept {
         const bool isSigned = text.starts_with('-') && (before == ' ' || before == '=');
-        const std::string_view digits = text.substr(isSigned ? 1 : 0);
-        if (digits.empty() || digits.front() < '0' || digits.front() > '9' ||
-            (before >= '0' && before <= '9'))
-            return 0;
-        const auto [stop, code] =
-            std::from_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed);
-        return code == std::errc{} ? static_cast<std::size_t>(stop - text.data()) : 0;
+        const auto isDigit = [](char c) { return c >= '0' && c <= '9'; };
+        std::size_t length = isSigned ? 1 : 0;
+        if (length == text.size() || !isDigit(text[length]) || isDigit(before)) return 0;
+        for (bool hasPoint = false; length < text.size(); ++length)
+            if (!isDigit(text[length]) && (text[length] != '.' || std::exchange(hasPoint, true))) break;
+        const auto found = parseNumber<double>(text.substr(0, length));
+        number = found.value_or(0.0);
+        return found ? length : 0;
     }
 };
 
