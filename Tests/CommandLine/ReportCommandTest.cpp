@@ -134,6 +134,17 @@ TEST_F(Report, GroupsOfATableAreCountedAndAnswersThatAreNoneToo) {
           "<td>P</td><td class=\"number\">2</td><td>no answer</td>"})
         EXPECT_TRUE(has(likes, words)) << words << likes.substr(likes.find("Participants<"), 3000);
     EXPECT_EQ(count(likes, "fewer trials than most"), 1u);
+    write("people.csv", "participant,excluded\nP,went home\n");
+    ASSERT_EQ(call("report t.csv --out without --people people.csv --columns "
+                   "participant=p,group=g,phase=when,condition=c,likes=likes")
+                  .exitCode,
+              0);
+    const auto rowOf = [this](const char* table) {
+        const std::string left = read(table);
+        const auto end = left.find("nothing in a named column");
+        return left.substr(left.rfind('\n', end), end - left.rfind('\n', end));
+    };
+    EXPECT_EQ(rowOf("without/left-out.csv"), rowOf("likes/left-out.csv")) << "P's go with P";
     for (const char* words :
          {"condition=calm group=not known,likes,2,1,40", "condition=calm group=x,likes,2,1,40"})
         EXPECT_TRUE(has(read("likes/ratings.csv"), words)) << words << read("likes/ratings.csv");

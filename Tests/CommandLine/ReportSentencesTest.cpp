@@ -152,7 +152,8 @@ std::vector<Sentence> sentences() {
          "logistic, "
          "guess rate 50 %, lapse rate up to 10 %; threshold: 75 %, apart from lapses. Thick: mean threshold, "
          "and mean width of who has one (a step has none). Dotted: mean threshold. "
-         "Column jnd: half of what lies between 0.25 and 0.75 of the function, a slope; no difference "
+         "Column jnd: half of what lies between 0.25 and 0.75 of the shape, without lapses: a slope; no "
+         "difference "
          "threshold of "
          "forced choices.",
          of(constant, 3, rising, true), of(constant, 3, alike, true)},

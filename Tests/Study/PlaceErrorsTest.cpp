@@ -27,8 +27,12 @@ TEST(PlaceErrors, EachTargetCountsAsMuchHoweverOftenItWasAsked) {
                                            {"P", "a", 0, 0, 1, 0},
                                            {"P", "a", 0, 0, 1, 0},
                                            {"P", "b", 10, 0, 15, 0},
-                                           {"Q", "b", 10, 0, 10, 2}});
-    ASSERT_EQ(people.size(), 2u);
+                                           {"Q", "b", 10, 0, 10, 2},
+                                           {"R", "a", 0, 0.5, 1, 0.4},
+                                           {"R", "b", 10, 0.49999999999999994, 1, 0.6}});
+    ASSERT_EQ(people.size(), 3u);
+    EXPECT_TRUE(people[2].hasGainX);
+    EXPECT_FALSE(people[2].hasGainY) << "one height, but for rounding";
     EXPECT_DOUBLE_EQ(people[0].constantX, 3.0);
     EXPECT_DOUBLE_EQ(people[0].distance, 3.0);
     EXPECT_EQ(people[0].targets, 2u);

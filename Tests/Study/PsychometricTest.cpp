@@ -86,7 +86,8 @@ TEST(Psychometric, WhatCannotBeFittedIsNamed) {
     for (const auto& [between, threshold] :
          {std::pair<std::vector<LevelCount>, double>{{{1, 0, 5}, {2, 5, 5}}, 1.5},
           {{{2, 11, 20}, {4, 9, 20}, {6, 20, 20}, {8, 20, 20}}, 5.0},
-          {{{1, 10, 22}, {2, 9, 22}, {3, 18, 22}, {4, 22, 22}}, 2.963}}) { // 2.927 to 3 are as likely
+          {{{1, 10, 22}, {2, 9, 22}, {3, 18, 22}, {4, 22, 22}}, 2.963}, // 2.927 to 3 are as likely
+          {{{1, 5, 10}, {2, 5, 10}, {3, 5, 10}, {4, 9, 10}}, 3.5}}) {   // with the most lapses
         const auto fit = fitPsychometric(between, {shapes[0]});
         EXPECT_TRUE(fit.fault.empty() && !fit.hasJnd) << fit.fault;
         EXPECT_NEAR(fit.function.threshold, threshold, 0.003);

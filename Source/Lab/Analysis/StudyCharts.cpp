@@ -257,10 +257,11 @@ std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& tria
         if (trial.answer > 0.0 && trial.level > 0.0)
             people[trial.participant][trial.level].push_back(std::log10(trial.answer));
     std::map<double, std::vector<double>> relative;
+    std::map<std::string, double> centre;
     for (const auto& [who, levels] : people) {
         std::vector<double> means;
         for (const auto& [level, values] : levels) means.push_back(meanOf(values));
-        const double own = meanOf(means);
+        const double own = centre[who] = meanOf(means);
         std::size_t i = 0;
         for (const auto& [level, values] : levels) relative[level].push_back(means[i++] - own);
     }
@@ -268,21 +269,22 @@ std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& tria
     chart.isLogarithmic = true;
     LineSeries points{"geometric mean of participants", {}};
     points.isDrawnThrough = false;
-    double middle = 0.0;
-    for (const auto& [level, values] : relative) {
+    for (const auto& [level, values] : relative)
         points.points.push_back({level, ChartValue::around(std::pow(10.0, meanOf(values)))});
-        middle += std::log10(level) / static_cast<double>(relative.size());
-    }
-    std::vector<double> exponents;
+    // each law in units of its participant's geometric mean, as the points are: people may have other levels
+    std::vector<double> exponents, atOne;
     for (const auto& own : powerLawByParticipant(trials))
-        if (own.law.fault.empty()) exponents.push_back(own.law.exponent);
+        if (own.law.fault.empty()) {
+            exponents.push_back(own.law.exponent);
+            atOne.push_back(std::log10(own.law.factor) - centre[own.participant]);
+        }
     if (!exponents.empty() && !points.points.empty()) {
-        const double exponent = meanOf(exponents);
+        const double exponent = meanOf(exponents), first = meanOf(atOne);
         LineSeries law{"mean power law", {}};
         law.isMarked = false;
         law.style = 4;
         for (const double level : {points.points.front().x, points.points.back().x}) {
-            const double y = std::pow(10.0, exponent * (std::log10(level) - middle));
+            const double y = std::pow(10.0, first + exponent * std::log10(level));
             law.points.push_back({level, {y, y, y}});
         }
         chart.series.push_back(std::move(law));

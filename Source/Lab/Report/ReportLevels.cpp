@@ -157,8 +157,9 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
             (isFitted
                  ? " Thin lines: participants' functions, " + report.functions + ". Thick: mean " +
                        report.half + ", and mean width of who has one (a step has none). Dotted: mean " +
-                       report.half + ". Column jnd: half of what lies between 0.25 and 0.75 of the function" +
-                       (model.guess > 0.0 ? ", a slope; no difference threshold of forced choices."
+                       report.half +
+                       ". Column jnd: half of what lies between 0.25 and 0.75 of the shape, without lapses" +
+                       (model.guess > 0.0 ? ": a slope; no difference threshold of forced choices."
                                           : ": JND.")
                  : ""));
 }

@@ -216,6 +216,7 @@ void tellParticipants(ReportBuilder& report) {
         if (trials > 0) left.row(code, "", "", trials, planned, why, what);
     };
     for (const auto& [code, own] : people) {
+        rows -= std::min(rows, own.unanswered); // told with whose they are
         if (facts.isExcluded(code)) {
             of(code, own.main + own.training, "", facts.person(code)->excluded, "all trials");
             continue;
@@ -225,7 +226,6 @@ void tellParticipants(ReportBuilder& report) {
                      "tests of what is lacking, if any");
         of(code, own.ranOut, "", "ran out of time", "these trials");
         of(code, own.unanswered, "", "no answer", "these trials");
-        rows -= std::min(rows, own.unanswered);
     }
     of("", rows, "", "nothing in a named column", "these rows");
     std::map<std::string, std::size_t> whose;

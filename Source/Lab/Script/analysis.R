@@ -288,7 +288,7 @@ pairs.test <- function(test, file, measure, within = character(), where = charac
 }) }
 # Whether a participant has more trials of one combination of levels than of another, so that a mean over trials is none over levels.
 has.unequal <- function(d, factors) any(tapply(do.call(paste, c(list(character(nrow(d))), lapply(factors, function(f) level(d, f)), sep = "\r")), d$participant, function(own) length(unique(table(own)))) > 1)
-over.trials <- "levels have unequal numbers of trials: a participant's share is of all trials, and levels count by theirs"
+over.trials <- function(factors) paste0(if (length(factors) > 1) "combinations of ", paste(factors, collapse = ", "), ": unequal numbers of trials; a participant's share is over all of them, so that those with more count more")
 # Participants' shares of an alternative against chance: of all trials, each level of a factor, each combination of levels. Signed ranks; where all lean
 # equally far, as where they are unanimous, exact binomials of how many lean to it. Of each alternative the trials count that offered it.
 choices <- function(test, file, factors = NULL, where = character()) { attempt(test, "all", {
@@ -308,7 +308,7 @@ choices <- function(test, file, factors = NULL, where = character()) { attempt(t
     alike <- alike.for(lone$d, design.of(lone$d)); d <- alike$d; design <- alike$design; factors <- c(design$within, design$between)
     for (note in c(lone$notes, design$notes)) remark(test, "factors", length(unique(d$participant)), note)
   } else design <- list(within = Filter(function(f) any(tapply(level(d, f), d$participant, function(l) length(unique(l))) > 1), factors))
-  if (length(design$within) > 0 && has.unequal(d, design$within)) remark(test, "factors", length(unique(d$participant)), over.trials)
+  if (length(design$within) > 0 && has.unequal(d, design$within)) remark(test, "factors", length(unique(d$participant)), over.trials(design$within))
   cell <- do.call(paste, c(list(character(nrow(d))), lapply(design$within, function(f) level(d, f)), sep = "\r"))
   whole.in <- function(of) { n <- tapply(cell[of], d$participant[of], function(own) length(unique(own))); names(n)[n == length(unique(cell[of]))] }
   unknown <- if ("group" %in% factors) groupless(d) # counts in no line of a group
@@ -607,15 +607,15 @@ study <- function(study, scales = character(), points = character(), half = "thr
     own$condition <- substring(own$condition, 1, nchar(own$condition) - nchar(word))
     for (w in unique(word)) run(own[word == w, ], w)
   }
-  from <- function(file, measures, columns = c("group", "condition"), words = "") if (file.exists(file)) parts.in(table.of(file), function(own, session) {
+  from <- function(file, measures, columns = c("group", "condition"), words = "", over = character()) if (file.exists(file)) parts.in(table.of(file), function(own, session) {
     name <- function(m) if (m %in% names(spoken)) spoken[[m]] else m
     what <- paste0(paste(vapply(measures, name, ""), collapse = ", "), words)
     if (!is.told) for (f in runs.of(d)) remark(what, "factors", length(unique(own$participant)), paste0(runs.words(d, f), "all trials together"))
-    for (m in measures) compare(paste0(name(m), words, session), own, m, columns = columns)
+    for (m in measures) compare(paste0(name(m), words, session), own, m, columns = columns, over = over)
   })
   spoken <- c(spoken, threshold = half); if (half == "threshold") spoken[["jnd"]] <- "half interquartile range" # of forced choices a slope
   from("identification.csv", "percent_correct")
-  if (file.exists("identification.csv") && has.unequal(d, intersect(c("condition", "stimulus"), names(d)))) remark("percent correct", "factors", length(everybody), over.trials)
+  if (file.exists("identification.csv") && has.unequal(d, all <- intersect(c("condition", "stimulus"), names(d)))) remark("percent correct", "factors", length(everybody), over.trials(all))
   from("identification-tolerance-1.csv", "percent_correct", words = " with one step of tolerance")
   if (all(c("target_column", "target_row") %in% names(d))) each("locate", "x", function(own, words) {
     compare(paste0("variable error", words), scatter.of(own), "variable", columns = c("group", "condition"), over = "target")
@@ -629,7 +629,7 @@ study <- function(study, scales = character(), points = character(), half = "thr
       }
     }
   })
-  from("places.csv", c("distance", if (!all(c("target_column", "target_row") %in% names(d))) "variable")) # the same as above
+  from("places.csv", c("distance", if (!all(c("target_column", "target_row") %in% names(d))) "variable"), over = "target") # the same as above
   has.functions <- function(words) file.exists("psychometric-stimuli.csv") && any(endsWith(table.of("psychometric-stimuli.csv")$condition, words))
   each("choose", if ("choice" %in% names(d)) "choice" else "response", function(own, words) {
     if (is.told) own <- own[own$correct == "" | own$level_db == "", ] # levels that follow the answers

@@ -220,16 +220,16 @@ TargetError errorOf(const std::vector<const PlaceTrial*>& trials) {
         momentsOf(trials, [](const PlaceTrial& t) { return std::hypot(t.x - t.trueX, t.y - t.trueY); }).mean};
 }
 
-/// Least-squares slope; nullopt if all true places are equal.
+/// Least-squares slope; nullopt if all true places are equal, but for rounding.
 std::optional<double> slope(const std::vector<const PlaceTrial*>& trials, double PlaceTrial::*truth,
                             double PlaceTrial::*answer) {
     const double meanTrue = momentsOf(trials, [=](const PlaceTrial&t) { return t.*truth; }).mean,
                  meanAnswer = momentsOf(trials, [=](const PlaceTrial&t) { return t.*answer; }).mean;
-    double squares = 0.0, products = 0.0;
+    double squares = 0.0, products = 0.0, size = 0.0;
     for (const PlaceTrial* t : trials)
-        squares += (t->*truth - meanTrue) * (t->*truth - meanTrue),
+        size += t->*truth * t->*truth, squares += (t->*truth - meanTrue) * (t->*truth - meanTrue),
             products += (t->*truth - meanTrue) * (t->*answer - meanAnswer);
-    return squares > 0.0 ? std::optional{products / squares} : std::nullopt;
+    return squares > 1e-24 * size ? std::optional{products / squares} : std::nullopt;
 }
 
 } // namespace

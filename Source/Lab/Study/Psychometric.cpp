@@ -139,6 +139,19 @@ std::string faultOfCounts(std::span<const LevelCount> counts) {
 
 constexpr double sameLikelihood = 0.01; // of its logarithm
 
+/// The likeliest lapse rate of a step at `level`: of answers on its sides.
+double lapseBeside(std::span<const LevelCount> counts, const PsychometricModel& model, double level,
+                   bool isRisenAt) {
+    double lapses = 0.0, trials = 0.0;
+    for (const LevelCount& c : counts) {
+        const bool isAbove = c.level > level || (isRisenAt && c.level == level);
+        if (!isAbove && (model.guess > 0.0 || c.level == level)) continue; // guesses tell no lapses
+        trials += static_cast<double>(c.trials);
+        lapses += static_cast<double>(isAbove ? c.trials - c.hits : c.hits);
+    }
+    return trials > 0.0 ? std::min(lapses / trials, model.mostLapses()) : 0.0;
+}
+
 /// The least and the most threshold that is as likely as that of `f`, with any width, if a step is as likely:
 /// then the answers tell no width, and `f` becomes the likeliest function half way between them.
 std::optional<std::pair<double, double>> becomesStep(std::span<const LevelCount> counts,
@@ -148,7 +161,8 @@ std::optional<std::pair<double, double>> becomesStep(std::span<const LevelCount>
     std::vector<double> at;
     for (double width = 1e-3 * range; width < range; width *= 1.1) {
         for (const LevelCount& c : counts)
-            for (const double lapse : {f.lapse, 0.0})
+            for (const double lapse : {f.lapse, lapseBeside(counts, model, c.level, false),
+                                       lapseBeside(counts, model, c.level, true)})
                 for (const std::uint64_t own : {std::uint64_t{0}, c.hits, c.trials}) { // at this level or
                                                                                        // beside it
                     PsychometricFunction one = model.with(c.level, width, lapse);
@@ -161,12 +175,14 @@ std::optional<std::pair<double, double>> becomesStep(std::span<const LevelCount>
         if (at.empty()) return {}; // no step
     }
     const auto [least, most] = std::ranges::minmax(at);
-    const double lapse = f.lapse;
-    f = model.with(std::midpoint(least, most), 1e-3 * range, lapse);
+    const double middle = std::midpoint(least, most);
+    const std::array lapses{f.lapse, lapseBeside(counts, model, middle, false)};
+    f = model.with(middle, 1e-3 * range, f.lapse);
     for (double width = 1e-3 * range; width < range; width *= 1.1)
-        if (const auto one = model.with(f.threshold, width, lapse);
-            logLikelihood(counts, one) > logLikelihood(counts, f))
-            f = one;
+        for (const double lapse : lapses)
+            if (const auto one = model.with(middle, width, lapse);
+                logLikelihood(counts, one) > logLikelihood(counts, f))
+                f = one;
     return std::pair{least, most};
 }
 

@@ -407,6 +407,9 @@ if (!all(line(told(compare("y", table.of("trials.csv"), "y")), "group: g - h")$n
 d <- expand.grid(target_column = 1:2, trial = 1:3, condition = c("c1", "c2"), participant = person(8), stringsAsFactors = FALSE); d$target_row <- 1; d$x <- runif(96) + d$target_column * runif(96); d$y <- runif(96)
 ours <- whole(d[!(d$participant == "05" & d$condition == "c2" & d$target_column == 2), ], character()); own <- ours[grepl("variable error", ours$test), ]
 if (!any(grepl("of 05$", own$note)) || !all(line(own, "condition: c1 - c2")$n == 7)) fault("errors of unequal targets are compared")
+d <- expand.grid(target = c("near", "far"), condition = c("c1", "c2"), participant = person(8), stringsAsFactors = FALSE); d$distance <- runif(32) + 9 * (d$target == "far"); d <- d[-4, ]; rows(d, "places.csv")
+ours <- whole(d[c("participant", "condition")], character()); own <- ours[grepl("distance from the target", ours$test), ]; unlink("places.csv")
+if (!any(grepl("of 01$", own$note)) || !all(line(own, "condition: c1 - c2")$n == 7) || !any(grepl("target (2): averaged over", own$note, fixed = TRUE))) fault("distances from unequal targets are compared")
 # Values below 0 are no magnitudes: they are compared as they are.
 d <- expand.grid(trial = 1:2, condition = c("c1", "c2"), participant = person(9), stringsAsFactors = FALSE); d$value <- round(rnorm(36, 3 * (d$condition == "c2") - 2), 2); d$value[5] <- 0; wide <- tapply(d$value, list(d$participant, d$condition), mean)
 ours <- whole(d, character())
