@@ -52,6 +52,7 @@ files=$(printf "'%s', " ./ *.html *.css *.js *.svg *.png *.wasm *.webmanifest | 
 sed -i -e "s|@VERSION@|$version|" -e "s|'@FILES@'|$files|" service-worker.js
 cd ../../..
 cp LICENSES/MIT.txt build/web/page/LICENSE
+cp Standalone/Web/serve.py build/web/page # by which the mixer serves it
 python3 Standalone/Packaging/sbom.py --licences page >build/web/page/THIRD-PARTY.txt
-bytes=$(tar -C build/web --exclude=THIRD-PARTY.txt -cz page | wc -c)
+bytes=$(tar -C build/web --exclude=THIRD-PARTY.txt --exclude=serve.py -cz page | wc -c)
 say "build/web/page: $bytes bytes compressed, without the licences"

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Serves the page by https, so that a phone in the same network gets its sound and its sensors: serve.py [--port 8443] [FOLDER (build/web/page)]
+"""Serves the page by https, so that a phone in the same network gets its sound and its sensors: serve.py [--port 8443] [FOLDER (its own, or build/web/page)]
 The certificate is made at the start, and signed by nobody: the browser warns of it once, as it does of every such one. Needs openssl."""
 import argparse
 import functools
@@ -13,10 +13,11 @@ import subprocess
 import sys
 import tempfile
 
+OWN = pathlib.Path(__file__).resolve().parent
 options = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
 options.add_argument("--port", type=int, default=8443)
 options.add_argument("--with-parent", action="store_true", help="ends with the program that began it")
-options.add_argument("folder", nargs="?", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build/web/page")
+options.add_argument("folder", nargs="?", type=pathlib.Path, default=OWN if (OWN / "index.html").is_file() else OWN.parents[1] / "build/web/page")
 given = options.parse_args()
 if not (given.folder / "index.html").is_file():
     sys.exit(f"serve.py: {given.folder}: expected the page; Standalone/Web/build-web.sh builds it")

@@ -95,6 +95,8 @@ void drawBar(juce::Graphics& g, juce::Rectangle<float> area, float place, const 
     bar.addRoundedRectangle(area.reduced(0.5f), corner);
     g.setColour(shade(slider, Shade::raised));
     g.fillPath(bar);
+    g.setColour(shade(slider, Shade::line)); // its end is seen on whatever it lies
+    g.strokePath(bar, juce::PathStrokeType{1.0f});
     if (!slider.isEnabled()) return;
     const juce::Graphics::ScopedSaveState whole{g};
     g.reduceClipRegion(bar);

@@ -3,6 +3,7 @@
 // have one output, as files may have them.
 #include "Mixer/Model/MixerDevice.h"
 #include "Live/Devices/NoDevice.h"
+#include "Live/Devices/PicoDevice.h"
 #include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerModel.h"
 #include <algorithm>
@@ -174,14 +175,24 @@ std::vector<std::size_t> placeNew(const DeviceChoice& choice, std::span<Strip> s
     return without;
 }
 
+void fitLayoutTo(int outputs, Mix& mix, std::string_view device) {
+    const bool isFirst = mix.layout.name == MixerModel::firstMix().layout.name; // nobody has chosen it
+    if (mix.count() <= outputs && !(isPico(device) && isFirst)) return;
+    mix.layout = presetLayout(layoutFor(outputs, device), mix.layout.enchanters);
+    mix.resizeStrips();
+}
+
 void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips) {
     if (strips.empty()) return;
-    model.messages().add({labelsOf(model, strips) +
-                              (strips.size() == 1 ? " has no output: " : " have no output: ") +
-                              "headphones have two, L and R",
-                          false,
-                          {},
-                          noEarLabel});
+    model.messages().add(
+        {labelsOf(model, strips) + (strips.size() == 1 ? " has no output: " : " have no output: ") +
+             "headphones have two, L and R",
+         false,
+         {"Use two",
+          [&model] {
+              model.change("Two actuators", [](Mix& mix) { fitLayoutTo(DeviceChoice::ears, mix); });
+          }},
+         noEarLabel});
 }
 
 namespace {

@@ -127,6 +127,10 @@ void showPlayedOutputs(const std::vector<int>& played, std::span<Strip> strips);
 /// other outputs. Headphones have two. Returns the strips without one. Any thread.
 std::vector<std::size_t> placeNew(const DeviceChoice& choice, std::span<Strip> strips, std::size_t first);
 
+/// If the layout has more actuators than `outputs`, replaces it by a preset that fits. A Pico gets its own
+/// preset, unless the user has chosen a layout. Message thread.
+void fitLayoutTo(int outputs, Mix& mix, std::string_view device = {});
+
 /// Opens a device as headphones: the first actuator is heard left and the second right, at the level at which
 /// a monitor begins, or lower. Result as MixerModel::open(). Message thread.
 /// `before`: the outputs that the strips get back after them; none: those of now.
@@ -140,7 +144,8 @@ void takeOffHeadphones(const DeviceChoice& choice, int outputs, std::span<Strip>
                        std::size_t first = 0);
 void leaveHeadphones(MixerModel& model, const DeviceChoice& ears);
 
-/// Reports strips for which headphones have no output. Message thread.
+/// Reports strips for which headphones have no output, with a button that leaves two actuators. Message
+/// thread.
 void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips);
 constexpr const char *noEarLabel = "ears", *noOutputLabel = "outputs"; ///< of that message, and the next
 

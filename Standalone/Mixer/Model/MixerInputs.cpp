@@ -277,12 +277,15 @@ void MixerClips::feel(const juce::File& file, const EnchanterPlace& atMetres, bo
 }
 
 void MixerClips::play(const juce::File& file) {
-    read({"clip", {{"file", file.getFullPathName().toStdString()}}});
+    read({"clip", {{"file", file.getFullPathName().toStdString()}}},
+         "Playing " + file.getFileName().toStdString());
 }
 
-void MixerClips::read(PlainMessage clip) {
-    reader_.addJob([this, clip = std::move(clip)] {
+// What is said of the file itself where nothing else is.
+void MixerClips::read(PlainMessage clip, std::string said) {
+    reader_.addJob([this, clip = std::move(clip), said = std::move(said)] {
         auto result = strike(clip);
+        if (result && !said.empty()) result.value = said;
         const std::lock_guard lock{mutex_};
         results_.push_back(std::move(result));
         triggerAsyncUpdate();

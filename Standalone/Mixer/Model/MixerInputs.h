@@ -114,7 +114,7 @@ public:
     void play(const juce::File& file);
 
 private:
-    void read(PlainMessage clip);
+    void read(PlainMessage clip, std::string said = {});
     Result<std::string> strike(const PlainMessage& clip);
     void handleAsyncUpdate() override;
 

@@ -130,7 +130,11 @@ public:
     std::string keys() const override { return "Arrows and Enter: answer.  Enter: confirm."; }
     bool handleKey(const juce::KeyPress& key) override { return moveFocus(*this, key); }
     void mark(const std::set<std::string>& felt) override {
-        for (std::size_t i = 0; i < buttons_.size(); ++i) buttons_[i]->setMarked(felt.contains(labels_[i]));
+        for (std::size_t i = 0; i < buttons_.size(); ++i) {
+            const bool isFelt = felt.contains(labels_[i]);
+            buttons_[i]->setMarked(isFelt);
+            buttons_[i]->setDescription(isFelt ? "was felt" : "");
+        }
     }
     void resized() override {
         const int count = static_cast<int>(buttons_.size());

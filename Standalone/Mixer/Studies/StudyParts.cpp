@@ -38,7 +38,6 @@ void BigButton::setMain(bool isMain) {
 void BigButton::setMarked(bool isMarked) {
     if (isMarked == isMarked_) return;
     isMarked_ = isMarked;
-    setDescription(isMarked ? "was felt" : "");
     repaint();
 }
 

@@ -26,7 +26,7 @@ public:
     void setWords(const juce::String& words, const juce::String& remark = {});
     void setShare(double share);   ///< of the bar, 0 to 1; negative: no bar
     void setMain(bool isMain);     ///< the button that continues
-    void setMarked(bool isMarked); ///< shows a dot: already felt
+    void setMarked(bool isMarked); ///< shows a dot
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
 
 private:

@@ -570,8 +570,9 @@ void StudyScreen::updateParts() {
             words = i < open ? say_("Reference") : partLetter(i - open);
         else if (!session.objects.empty() && worldSet() == nullptr)
             words += "   " + say_(trial.parts[i]);
-        if (session.adjustment && session.adjustment->alternative == trial.parts[i])
-            words += "   " + say_("to be matched");
+        const bool isMatched = session.adjustment && session.adjustment->alternative == trial.parts[i];
+        if (isMatched) words += "   " + say_("to be matched");
+        button.setMarked(isMatched);
         if (i == 0 && !session.modulus.empty()) words += "   = " + utf8(numberText(session.modulusNumber));
         juce::StringArray remarks;
         if (isPlaying)

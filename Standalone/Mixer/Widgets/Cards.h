@@ -95,7 +95,7 @@ private:
     juce::TextButton up_{"Up"}, accept_, cancel_{"Cancel"};
 };
 
-constexpr int mostPicture = 370; ///< pixels of a side
+constexpr int mostPicture = 450; ///< pixels of a side
 
 /// Dialogue card over the window, with fields to fill in: Return selects the first answer, buttons and keys
 /// the others.

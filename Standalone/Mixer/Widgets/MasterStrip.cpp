@@ -35,7 +35,10 @@ void MasterStrip::mixChanged() {
 
 void MasterStrip::refresh(const MixerMoment& moment) {
     meter_.set(moment.masterPeak, moment.masterPeak);
-    if (limiter_.set(moment.meters.limiterGain, moment.meters.guardGain)) repaint();
+    // at SILENCE nothing is held back, as nothing comes
+    const bool isSilent = model_.isSilent();
+    if (limiter_.set(isSilent ? 1.0f : moment.meters.limiterGain, isSilent ? 1.0f : moment.meters.guardGain))
+        repaint();
 }
 
 double MasterStrip::mostG() const {

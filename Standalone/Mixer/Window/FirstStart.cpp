@@ -5,7 +5,6 @@
 #include "Core/Limits.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
-#include "Live/Devices/PicoDevice.h"
 #include "Mixer/Model/MixerDevice.h"
 #include <algorithm>
 #include <optional>
@@ -54,13 +53,6 @@ public:
 };
 
 } // namespace
-
-void fitLayoutTo(int outputs, Mix& mix, std::string_view device) {
-    const bool isFirst = mix.layout.name == MixerModel::firstMix().layout.name; // nobody has chosen it
-    if (mix.count() <= outputs && !(isPico(device) && isFirst)) return;
-    mix.layout = presetLayout(layoutFor(outputs, device), mix.layout.enchanters);
-    mix.resizeStrips();
-}
 
 std::vector<SinkOffer> likelySinks() {
     std::vector<SinkOffer> offers;

@@ -33,10 +33,6 @@ std::vector<SinkOffer> likelySinks();
 /// likelySinks().
 std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vector<SinkOffer>& offers);
 
-/// If the layout has more actuators than `outputs`, replaces it by a preset that fits. A Pico gets its own
-/// preset, unless the user has chosen a layout. Message thread.
-void fitLayoutTo(int outputs, Mix& mix, std::string_view device = {});
-
 /// Card over the window, usable by keys alone: up, down and Return; then Return (felt), L (louder), N (not
 /// felt); Esc ends it, too. Message thread.
 class FirstStart final : public Card, private juce::Timer {

@@ -753,7 +753,8 @@ void MixerWindow::openFile(const juce::File& file) {
 
 void MixerWindow::save(std::function<void()> then) {
     if (document_ == juce::File{}) return saveAs(std::move(then));
-    if (saveTo(document_) && then) then();
+    if (!saveTo(document_)) return;
+    then ? then() : announceSaved("Saved", document_);
 }
 
 void MixerWindow::saveAs(std::function<void()> then) {
@@ -1006,8 +1007,8 @@ void MixerWindow::share(bool isElsewhere) {
         return ask(
             "Share the world",
             "A movie plays on any phone.\nA scene is felt in another mixer, or on a web page of "
-            "PhysVib.\nThat page is not built here: after Standalone/Web/build-web.sh, Share serves it "
-            "to phones, with a code.",
+            "PhysVib. That page is a part of a release (physvib-page): unpacked into the mixer's folder, "
+            "Share serves it to phones, with a code.",
             {{"Save movie" + dots(), then([this] { saveMovie(); })},
              {"Save as scene" + dots(), then([this] { saveScene(false, folderOfDocuments()); })},
              {"Other page" + dots(), then([this] { share(true); })}});
@@ -1028,7 +1029,7 @@ void MixerWindow::share(bool isElsewhere) {
         const bool isAlone = isLoopback(address), isThere = address.isNotEmpty();
         card.setValue(linkField, at(address));
         for (const char* words : {copyWords, openWords}) card.enable(words, isThere);
-        card.setFirst(isThere ? juce::String{copyWords} : instead);
+        card.setFirst(isThere || !canServe ? juce::String{copyWords} : instead);
         const auto code = isAlone || !isThere ? juce::Image{} : qrPicture(at(address).toStdString());
         card.setPicture(code, isAlone    ? "No code: this address leads nowhere on a phone, only here"
                               : !isThere ? "A phone's code comes with the address"
@@ -1051,7 +1052,7 @@ void MixerWindow::share(bool isElsewhere) {
          }},
         {openWords, [whole] { openLink(whole()); }}};
     if (served_.isEmpty()) // the first is at the right
-        answers.insert(page.isEmpty() ? answers.begin() : answers.end(),
+        answers.insert(page.isEmpty() && canServe ? answers.begin() : answers.end(),
                        {instead, [this, canServe] {
                             view_->setCard(nullptr);
                             canServe ? serve() : saveScene(false, folderOfDocuments());

@@ -88,20 +88,20 @@ void openLink(juce::String link) {
     juce::Process::openDocument(link, {});
 }
 
-juce::File PageServer::tree() {
+juce::File PageServer::page() {
     auto folder = juce::File::getSpecialLocation(juce::File::currentExecutableFile).getParentDirectory();
     for (; !folder.isRoot(); folder = folder.getParentDirectory())
-        if (folder.getChildFile("build/web/page/index.html").existsAsFile() &&
-            folder.getChildFile("Standalone/Web/serve.py").existsAsFile())
-            return folder;
+        for (const char* at : {"build/web/page", "physvib-page", "share/physvib/physvib-page"})
+            if (folder.getChildFile(at).getChildFile("serve.py").existsAsFile())
+                return folder.getChildFile(at);
     return {};
 }
 
 Result<std::string> PageServer::begin() {
-    const auto folder = tree();
+    const auto folder = page();
     juce::String words;
-    if (program_.start({"python3", folder.getChildFile("Standalone/Web/serve.py").getFullPathName(),
-                        "--with-parent", folder.getChildFile("build/web/page").getFullPathName()}))
+    if (program_.start({"python3", folder.getChildFile("serve.py").getFullPathName(), "--with-parent",
+                        folder.getFullPathName()}))
         for (char c = 0; program_.readProcessOutput(&c, 1) == 1 && c != '\n';)
             words << juce::String::charToString(c);
     const auto address = words.upToFirstOccurrenceOf(" ", false, false);

@@ -17,17 +17,18 @@ bool isLoopback(const juce::String& address);
 /// In the system's browser, to the letter. Message thread.
 void openLink(juce::String link);
 
-/// Serves the page by https to this network, by Standalone/Web/serve.py, until it goes.
+/// Serves the page by https to this network, by its serve.py, until it goes.
 class PageServer {
 public:
     ~PageServer() { program_.kill(); }
-    /// The mixer was built in a tree that has the page, too. Any thread.
-    static bool isThere() { return tree() != juce::File{}; }
+    /// The page is there: of the tree in which the mixer was built, or a release's folder physvib-page in or
+    /// above the mixer's, or installed beside it in share/physvib. Any thread.
+    static bool isThere() { return page() != juce::File{}; }
     /// The page's address for others, or one line. May wait for a second: not on the message thread.
     Result<std::string> begin();
 
 private:
-    static juce::File tree();
+    static juce::File page();
     juce::ChildProcess program_;
 };
 

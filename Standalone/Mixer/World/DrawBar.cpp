@@ -385,8 +385,8 @@ void BodyPanel::paint(juce::Graphics& g) {
 
 // What goes together stays in one line; in a narrow panel a slider has a line of its own.
 int BodyPanel::flow(int width, bool places) {
-    constexpr int nameWide = 94, materialWide = 100, movesWide = 80, sourceWide = 118, captionWide = 58,
-                  swatchWide = 28, between = 4;
+    constexpr int nameWide = 94, materialWide = 100, widerMaterial = 114, movesWide = 80, sourceWide = 118,
+                  markWide = 18, captionWide = 58, swatchWide = 28, between = 4;
     const int right = width - edge;
     int x = edge, y = edge;
     const auto put = [&](std::initializer_list<std::pair<juce::Component*, int>> parts) {
@@ -400,8 +400,14 @@ int BodyPanel::flow(int width, bool places) {
         }
         x += between;
     };
-    put({{&name_, nameWide}, {material_.get(), materialWide}});
-    put({{&moves_, movesWide}, {&source_, sourceWide}});
+    put({{&name_, nameWide}, {material_.get(), width > 2 * wide ? materialWide : widerMaterial}});
+    // of several bodies they may differ, and say so: then each has its line
+    const auto marks = [](const juce::Button& button) { return button.getButtonText().containsChar(0x2260); };
+    if (marks(moves_) || marks(source_)) {
+        put({{&moves_, movesWide + markWide}});
+        put({{&source_, sourceWide + markWide}});
+    } else
+        put({{&moves_, movesWide}, {&source_, sourceWide}});
     for (auto& swatch : materials_) // the one that makes another is not alone
         if (swatch != materials_.back())
             put({{swatch.get(), swatchWide}}), x -= between;

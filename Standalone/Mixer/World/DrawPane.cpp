@@ -674,6 +674,8 @@ void DrawPane::drawOutline(juce::Graphics& g, const BodyDescription& body, const
 }
 
 void DrawPane::drawChosen(juce::Graphics& g) const {
+    const juce::Graphics::ScopedSaveState saved{g};
+    for (const auto& badge : view_.badges()) g.excludeClipRegion(badge.getSmallestIntegerContainer());
     const auto accent = shade(*this, Shade::accent);
     const bool goes = isDrawing_ && (grip_ == Grip::move || grip_ == Grip::turn);
     const auto moved = goes ? movedNow() : std::map<std::string, BodyPlace>{};
@@ -729,6 +731,13 @@ void DrawPane::drawStroke(juce::Graphics& g) const {
 void DrawPane::paint(juce::Graphics& g) {
     drawBelts(g);
     drawJoints(g);
+    if (drawing().drawn().bodies.empty() && !isDrawing_) {
+        g.setColour(shade(*this, Shade::muted));
+        g.setFont(text::font(text::medium));
+        g.drawText("Nothing is here yet: choose a tool, or press B and draw a ball",
+                   juce::Rectangle<float>{view_.placeOfShare({0.0, 1.0}), view_.placeOfShare({1.0, 0.0})},
+                   juce::Justification::centred, true);
+    }
     if (tool_ == DrawTool::hand) return;
     drawChosen(g);
     drawStroke(g);

@@ -61,6 +61,8 @@ public:
 
     juce::Rectangle<float> chosenArea() const; ///< around what is selected, in pixels; empty: nothing is
 
+    std::optional<BodyPlace> placeNow(const std::string& name) const; ///< nullopt: it is not there now
+
     bool isDrawing() const noexcept { return isDrawing_; } ///< or moves what is selected
     void cancelStroke();
 
@@ -85,7 +87,6 @@ private:
     double grid() const;
     bool isBeside(juce::Point<float> place) const;
     std::optional<Handles> handles() const;
-    std::optional<BodyPlace> placeNow(const std::string& name) const;
     BodyDescription sizedNow() const;
     std::map<std::string, BodyPlace> movedNow() const;
     Result<BodyDescription> drawnNow() const;

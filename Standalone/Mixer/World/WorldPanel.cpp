@@ -210,7 +210,9 @@ void WorldPanel::placeInspector() {
 juce::Rectangle<int> WorldPanel::bannerArea() const {
     auto row = getLocalBounds().reduced(8, 4);
     if (isShow_) return row.withTrimmedRight(silenceWidth).withHeight(28);
-    if (hasMaster_) row.setRight(tilt_.getX() - 8);
+    // beside the dials and A/B, where it has the room
+    if (const auto beside = row.withRight(tilt_.getX() - 8); hasMaster_ || beside.getWidth() >= 280)
+        row = beside;
     return row.removeFromBottom(foot - 9);
 }
 
@@ -381,7 +383,14 @@ juce::String WorldPanel::whyNothing(double nowMs, bool isRunning) const {
     if (!hasBody([](const BodyDescription& body) { return body.type != BodyType::staticBody; }))
         return "draw a ball: B";
     if (nowMs - hitAtMs_ > shownMs && !hasBody(isSource)) return "no body is a haptic source";
-    return nowMs - hitAtMs_ > quietMs ? "no hits" : "";
+    if (nowMs - hitAtMs_ <= quietMs) return "";
+    const bool areAllOut = std::ranges::all_of(drawn.bodies, [&](const BodyDescription& body) {
+        const auto at = body.type == BodyType::staticBody ? std::nullopt : pane_.placeNow(body.name);
+        if (!at) return true;
+        const auto [x, y] = at->metres;
+        return x < 0.0 || y < 0.0 || x > drawn.fieldWidthMetres || y > drawn.fieldHeightMetres;
+    });
+    return areAllOut && drawn.script.empty() ? "all that moves has left the field" : "no hits";
 }
 
 void WorldPanel::showSentence() {
