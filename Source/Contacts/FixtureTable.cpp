@@ -121,6 +121,12 @@ double FixtureTable::largestStaticMassKg(const BodyReader& bodies) {
 
 // Connected components of the contact graph by union-find over the live edges.
 
+inline void ContactGraph::unite(const Edge& edge) noexcept {
+    if (!at(edge.a).isPassing || !at(edge.b).isPassing) return;
+    const std::int32_t a = root(edge.a), b = root(edge.b);
+    at(std::max(a, b)).parent = std::min(a, b);
+}
+
 ContactGraph::ContactGraph(std::size_t edges)
     : indices_(edges) {
     edges_.reserve(edges);
@@ -191,15 +197,13 @@ void ContactGraph::drop(std::size_t edge) noexcept {
     if (at(gone.a).isPassing && at(gone.b).isPassing) isStale_ = true;
 }
 
-void ContactGraph::unite(const Edge& edge) noexcept {
-    if (!at(edge.a).isPassing || !at(edge.b).isPassing) return;
-    const std::int32_t a = root(edge.a), b = root(edge.b);
-    at(std::max(a, b)).parent = std::min(a, b);
-}
-
 void ContactGraph::rebuild() noexcept {
-    for (const Edge& edge : edges_) // nodes without edges are their own root already
-        for (const std::int32_t node : {edge.a, edge.b}) at(node).parent = node;
+    // all nodes, or those of edges, whichever are fewer: others are their own root already
+    if (nodes_.size() < 2 * edges_.size())
+        for (std::int32_t node = 0; Node & each : nodes_) each.parent = node++;
+    else
+        for (const Edge& edge : edges_)
+            for (const std::int32_t node : {edge.a, edge.b}) at(node).parent = node;
     for (const Edge& edge : edges_) unite(edge);
     isStale_ = false;
 }
