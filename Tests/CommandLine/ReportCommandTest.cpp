@@ -6,6 +6,8 @@
 #include "Lab/Files/ProtocolFile.h"
 #include "System/Process.h"
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 namespace physvib {
 namespace {
@@ -276,6 +278,26 @@ TEST_F(Report, WordsOfFilesAreOnlyWords) {
     EXPECT_TRUE(has(html, "&lt;script&gt;"));
     for (const char* bad : {"<script", "<img", "<b>c", "<td><b>"}) EXPECT_FALSE(has(html, bad)) << bad;
     EXPECT_FALSE(has(html, "SIMULATED")) << "nothing says that these were simulated";
+}
+
+// Of magnitudes that equal their levels the mean law goes through the mean of the middle one, which all have.
+TEST_F(Report, AMeanPowerLawIsInTheUnitsOfItsPointsWhoeverHasWhichLevels) {
+    write("m.csv", "participant,stimulus,value\nA,1,1\nA,10,10\nB,1,1\nB,10,10\nC,10,10\nC,100,100\n");
+    ASSERT_EQ(call("report m.csv --out m").exitCode, 0);
+    const std::string html = read("m/index.html");
+    const auto law = html.find("<path d=\"M");
+    ASSERT_NE(law, std::string::npos);
+    double x0 = 0.0, y0 = 0.0, x1 = 0.0, y1 = 0.0;
+    ASSERT_EQ(std::sscanf(html.c_str() + law, "<path d=\"M%lf %lfL%lf %lf", &x0, &y0, &x1, &y1), 4);
+    int found = 0;
+    for (auto at = html.find("translate("); at != std::string::npos; at = html.find("translate(", at + 1)) {
+        double x = 0.0, y = 0.0;
+        if (std::sscanf(html.c_str() + at, "translate(%lf %lf)", &x, &y) != 2) continue;
+        if (std::abs(x - 0.5 * (x0 + x1)) > 0.02) continue;
+        EXPECT_NEAR(y, 0.5 * (y0 + y1), 0.02);
+        ++found;
+    }
+    EXPECT_EQ(found, 1);
 }
 
 TEST_F(Report, OtherProgramsTablesAreReadByTheirNames) {
