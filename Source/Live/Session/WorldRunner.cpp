@@ -72,8 +72,8 @@ void WorldRunner::resume(const FrameClock& clock) {
 
 int WorldRunner::advance(const StepWatch& keepGoing) {
     const std::lock_guard lock{mutex_};
-    // R says that it steps the world itself before it tells the frames of that block: whoever knows of them
-    // knows that too, and takes them for no stall
+    // R sets the mode of a block before its frames count: read after the time, an offline block, in which R
+    // steps the world itself, is never taken for a stall
     const std::int64_t now = time_.nowNs();
     if (offline_.load(std::memory_order_acquire)) return 0;
     isDriven_.store(true, std::memory_order_release);
