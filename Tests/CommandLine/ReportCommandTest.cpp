@@ -201,6 +201,14 @@ TEST_F(Report, PlacesBeyondTheEdgesHaveErrorsAndWhoIsInTwoGroupsIsNamed) {
               0);
     EXPECT_TRUE(has(page(), "12 of 24 places beyond the named edges: no"));
     EXPECT_TRUE(has(page(), "Places are shares of the named edges") && !has(page(), "table's units"));
+    // shares are not compared with what is in the table's units
+    ASSERT_EQ(call("report t.csv --out mixed --columns "
+                   "participant=who,target_x=tx,target_y=ty,x=px:0:420,y=py:0:100")
+                  .exitCode,
+              0);
+    EXPECT_TRUE(has(read("mixed/index.html"), "expected a range of both x and target_x"));
+    for (const char* page : {"mixed/index.html", "mixed/tests.csv"})
+        EXPECT_FALSE(has(read(page), "distance from the target")) << page;
 }
 
 TEST_F(Report, APlanHasTheExclusionsAndCorrections) {

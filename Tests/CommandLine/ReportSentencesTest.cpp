@@ -140,7 +140,8 @@ std::vector<Sentence> sentences() {
         {"a8_m_per_s2: the participant's exposure up to there", of(grid, 3, set("a8_m_per_s2", "0.1")),
          of(grid, 3)},
         {"level_db: Level of the trial", of(steps, 3), of(steps, 3, set("level_db", "0"))},
-        {"Share of correct answers by level, of all trials, also of who is left out. Circles: larger of more "
+        {"Share of correct answers by level, of all trials that are analysed, also of who has no threshold. "
+         "Circles: larger of more "
          "trials. Dotted: mean threshold of the n participants who have one. Threshold of a staircase: mean "
          "of "
          "the later half of the reversals that a trial follows (of 7 the last 4); converges to 70.7 % "

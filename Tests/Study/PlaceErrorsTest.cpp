@@ -79,6 +79,8 @@ TEST(PlaceErrors, TablesOfOtherProgramsAreReadWithTargetsAnywhere) {
     EXPECT_EQ(as({"target_x=true_x", "x=touch_x", "y=touch_y"}, readPlaces).error,
               "t.csv: expected both columns target_y and y, or none of them, found y");
     EXPECT_EQ(unitFault(parseColumnNames(line).value), "");
+    EXPECT_EQ(unitFault(parseColumnNames(std::vector<std::string>{"x=touch_x:0:1230", "y=touch_y"}).value),
+              "--columns: expected a range of both x and y, or of none of them, as they are compared");
     EXPECT_EQ(
         unitFault(parseColumnNames(std::vector<std::string>{"target_x=true_x", "x=touch_x:0:1230"}).value),
         "--columns: expected a range of both x and target_x, or of none of them, as they are compared");

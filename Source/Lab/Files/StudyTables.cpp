@@ -222,7 +222,7 @@ Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> wo
 }
 
 std::string unitFault(std::span<const ColumnName> names) {
-    for (const auto& [answered, truth] : {std::pair{"x", "target_x"}, {"y", "target_y"}}) {
+    for (const auto& [answered, truth] : {std::pair{"x", "target_x"}, {"y", "target_y"}, {"x", "y"}}) {
         const auto a = std::ranges::find(names, answered, &ColumnName::ours),
                    t = std::ranges::find(names, truth, &ColumnName::ours);
         if (a != names.end() && t != names.end() && a->range.has_value() != t->range.has_value())

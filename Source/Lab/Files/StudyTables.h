@@ -34,8 +34,8 @@ struct ColumnName {
 /// the right one), with each of our names once. Otherwise one line on the first invalid word. Any thread.
 Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> words);
 
-/// Empty, or an error if only one of an answered and a true place has a range, because their units then
-/// differ. Any thread (allocates).
+/// Empty, or an error if only one of an answered and a true place, or of both axes, has a range, because
+/// their units then differ. Any thread (allocates).
 std::string unitFault(std::span<const ColumnName> names);
 
 /// Columns of answers, beside those of scales.

@@ -186,6 +186,10 @@ void tellPlaces(ReportBuilder& report) {
             ++main;
             outside += lies(row, "x") || lies(row, "y");
         }
+        if (const auto fault = unitFault(report.trials.columns); !fault.empty()) { // of resolution no matter
+            report.page.heading("Perceived places");
+            return report.tellFault(fault);
+        }
         tellPlaceErrors(report);
         return report.page.note(std::to_string(outside) + " of " + counted(main, "place") +
                                 (hasEdges(report) ? " beyond the named edges" : " outside 0 to 1") +
@@ -228,8 +232,8 @@ void tellPlaceErrors(ReportBuilder& report) {
         std::string{hasEdges(report) ? "Places are shares of the named edges. "
                                      : "Places are in the table's units. "} +
         "Constant error: mean of answered minus true place. Variable error: standard deviation "
-        "around a target's own mean, both axes together. Gain: slope of answered over true "
-        "places. Each participant's mean over targets counts.");
+        "around a target's own mean, both axes together. Of each participant's targets the "
+        "mean counts. Gain: slope of a participant's answered over true places, of all trials.");
     report.analysis("places", report.options(), "places.csv");
 }
 

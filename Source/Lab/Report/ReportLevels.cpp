@@ -67,7 +67,8 @@ void tellThresholds(ReportBuilder& report, const std::vector<LevelTrial>& trials
     if (!charts.empty())
         report.page.figure(
             charts,
-            std::string{"Share of correct answers by level, of all trials, also of who is left out. Circles: "
+            std::string{"Share of correct answers by level, of all trials that are analysed, also of who has "
+                        "no threshold. Circles: "
                         "larger of more trials. Dotted: mean threshold of the n participants who have one."} +
                 (isOf(LevelTrial::Kind::staircase) ? " Threshold of a staircase: mean of the later half of "
                                                      "the reversals that a trial follows (of 7 the last 4)" +

@@ -205,7 +205,7 @@ mixed <- function(test, file, measure, within, between, where) {
   several <- unlist(lapply(seq_len(length(within) - 1), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE) # all of them are what is left
   random <- function(id, names) c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), ""))
   parts <- setNames(random("participant", within), random("id", sprintf("w%d", seq_along(within))))
-  remark(test, "model", length(unique(d$id)), paste0("of all who have a value, secondary; ", "maximum likelihood, likelihood ratio of the models with and without the effect, sum contrasts, random ", paste0("(1 | ", parts, ")", collapse = " + ")))
+  remark(test, "model", length(unique(d$id)), paste0("of all who have a value", if ("group" %in% between) " and a known group", ", secondary; ", "maximum likelihood, likelihood ratio of the models with and without the effect, sum contrasts, random ", paste0("(1 | ", parts, ")", collapse = " + ")))
   model <- as.formula(paste("y ~ 0 + x +", paste0("(1 | ", names(parts), ")", collapse = " + ")))
   fit <- function(x) {
     m <- suppressMessages(lme4::lmer(model, c(d, list(x = x)), REML = FALSE)); variances <- vapply(lme4::VarCorr(m), `[`, 0, 1)
