@@ -132,6 +132,8 @@ tell.lacking <- function(test, cells) { # once of the same cells
   if (length(lacking) > 0) remark(test, "left out", nrow(cells), values.lacking(lacking))
 }
 
+# Which factors each effect of a full model has, in the order in which R numbers its terms: A:B, A:C, B:C, A:D.
+effects.of <- function(names) lapply(strsplit(attr(terms(as.formula(paste("~", paste(names, collapse = "*")))), "term.labels"), ":", fixed = TRUE), match, names)
 # Means of participants' cells, within and between them: each effect by its orthonormal contrasts of the cells, against its own error; between people by
 # sums of squares of type III. p is corrected by Greenhouse and Geisser.
 anova.test <- function(test, file, measure, within = character(), where = character(), between = character()) { attempt(test, "all", {
@@ -141,7 +143,7 @@ anova.test <- function(test, file, measure, within = character(), where = charac
   x <- if (length(between) > 0) model.matrix(as.formula(paste("~", paste(names(people), collapse = "*"))), as.data.frame(people), lapply(people, function(f) "contr.sum"))
        else matrix(1, n, 1)
   terms <- if (length(between) > 0) attr(x, "assign") else 0
-  labels <- c("", vapply(unlist(lapply(seq_along(between), function(m) combn(between, m, paste, collapse = ":")), use.names = FALSE), identity, ""))
+  labels <- c("", if (length(between) > 0) vapply(effects.of(names(people)), function(e) paste(between[e], collapse = ":"), ""))
   if (length(between) > 0) remark(test, "model", n, "sums of squares of type III, sum contrasts")
   left.df <- n - qr(x)$rank
   if (left.df < 1) stop("expected more people than groups")
@@ -201,7 +203,7 @@ mixed <- function(test, file, measure, within, between, where) {
   d <- aggregate(y ~ ., rows.of(file, measure, factors, where, between), mean)
   own <- names(d)[-c(1, ncol(d))]
   x <- model.matrix(as.formula(paste("~", paste(own, collapse = "*"))), d, lapply(d[own], function(f) "contr.sum"))
-  terms <- attr(x, "assign"); effects <- unlist(lapply(seq_along(own), function(m) combn(seq_along(own), m, simplify = FALSE)), recursive = FALSE)
+  terms <- attr(x, "assign"); effects <- effects.of(own)
   several <- unlist(lapply(seq_len(length(within) - 1), function(m) combn(length(within), m, simplify = FALSE)), recursive = FALSE) # all of them are what is left
   random <- function(id, names) c(id, vapply(several, function(i) paste(c(id, names[i]), collapse = ":"), ""))
   parts <- setNames(random("participant", within), random("id", sprintf("w%d", seq_along(within))))

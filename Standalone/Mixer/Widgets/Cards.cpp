@@ -132,7 +132,9 @@ void Card::fit() {
 }
 
 void Card::resized() {
-    auto area = getLocalBounds().reduced(edgeX, edgeY).withWidth(width_ - 2 * edgeX);
+    // what is aside is at the left: the first answer is at the card's right edge
+    auto area = getLocalBounds().reduced(edgeX, edgeY);
+    area = area.withLeft(area.getRight() - (width_ - 2 * edgeX));
     title_.setBounds(area.removeFromTop(titleHigh));
     const int width = (area.getWidth() - (perRow() - 1) * gap) / perRow();
     const auto rows = area.removeFromBottom(answersHigh());
@@ -394,15 +396,6 @@ void QuestionCard::enable(const juce::String& answer, bool isEnabled) {
         if (answers_[k].words == answer) buttons_[k]->setEnabled(answers_[k].isEnabled = isEnabled);
 }
 
-void QuestionCard::setFirst(const juce::String& answer) {
-    const juce::KeyPress enter{juce::KeyPress::returnKey};
-    for (std::size_t k = 0; k < answers_.size(); ++k) {
-        const bool isFirst = answers_[k].words == answer;
-        if (isFirst || answers_[k].key == enter) answers_[k].key = isFirst ? enter : juce::KeyPress{};
-        buttons_[k]->setToggleState(isFirst, juce::dontSendNotification);
-    }
-}
-
 void QuestionCard::answer(const juce::String& words) {
     for (std::size_t k = 0; k < answers_.size(); ++k)
         if (answers_[k].words == words) return act(k);
@@ -428,7 +421,7 @@ bool QuestionCard::keyPressed(const juce::KeyPress& key) {
 void QuestionCard::paint(juce::Graphics& g) {
     Card::paint(g);
     g.setImageResamplingQuality(juce::Graphics::lowResamplingQuality); // sharp on finer screens
-    const auto room = juce::Rectangle<int>{aside().x, aside().y}.withRightX(getWidth() - edgeX).withY(edgeY);
+    const auto room = juce::Rectangle<int>{edgeX, edgeY, aside().x, aside().y};
     const auto at = picture_.getBounds().withCentre(room.getCentre());
     if (picture_.isValid()) return g.drawImageAt(picture_, at.getX(), at.getY());
     g.setColour(shade(*this, Shade::muted));

@@ -127,7 +127,6 @@ public:
     juce::String value(const juce::String& field) const; ///< as typed
     void setValue(const juce::String& field, const juce::String& value);
     void enable(const juce::String& answer, bool isEnabled);
-    void setFirst(const juce::String& answer); ///< the one that Return gives
     using Card::say;
 
     /// A square beside the words, with sharp pixels; null: `without` stands there, if it is not empty. With

@@ -210,6 +210,7 @@ void MixerWindow::nameWindow() {
     // ASCII, since JUCE passes other characters to X11 window managers as Latin-1
     const auto title = name + (isChanged() ? " *" : "") + " - PhysVib mixer";
     if (title != getName()) setName(title);
+    if (view_) view_->topBar().setDocument(name);
 }
 
 void MixerWindow::timerCallback() {
@@ -992,7 +993,7 @@ void MixerWindow::newScene(SceneGround ground) {
 namespace {
 
 constexpr const char *pageSetting = "page", *pageField = "Address of the page", *linkField = "Link",
-                     *copyWords = "Copy the link", *openWords = "Open it";
+                     *copyWords = "Copy the link", *openWords = "Open it", *serveWords = "Serve it here";
 
 } // namespace
 
@@ -1002,16 +1003,22 @@ void MixerWindow::share(bool isElsewhere) {
     if (!link) return say(utf8(link.error));
     const auto kept = files_.settings().getValue(pageSetting);
     const auto page = served_.isNotEmpty() ? served_ : isLoopback(kept) ? juce::String{} : kept;
-    if (page.isEmpty() && !isElsewhere && !PageServer::isThere()) {
+    if (page.isEmpty() && !isElsewhere) {
         const auto then = [this](auto act) { return [this, act] { view_->setCard(nullptr), act(); }; };
-        return ask(
-            "Share the world",
-            "A movie plays on any phone.\nA scene is felt in another mixer, or on a web page of "
-            "PhysVib. That page is a part of a release (physvib-page): unpacked into the mixer's folder, "
-            "Share serves it to phones, with a code.",
-            {{"Save movie" + dots(), then([this] { saveMovie(); })},
-             {"Save as scene" + dots(), then([this] { saveScene(false, folderOfDocuments()); })},
-             {"Other page" + dots(), then([this] { share(true); })}});
+        const bool canServe = PageServer::isThere();
+        std::vector<std::pair<juce::String, std::function<void()>>> ways{
+            {"Save movie" + dots(), then([this] { saveMovie(); })},
+            {"Save as scene" + dots(), then([this] { saveScene(false, folderOfDocuments()); })},
+            {"Other page" + dots(), then([this] { share(true); })}};
+        if (canServe) ways.insert(ways.begin(), {serveWords, then([this] { serve(); })});
+        return ask("Share the world",
+                   canServe
+                       ? "Serve it here gives a web page with this world to phones in this network, with a "
+                         "code.\nA movie plays on any phone; a scene is felt in another mixer."
+                       : "A movie plays on any phone.\nA scene is felt in another mixer, or on a web page of "
+                         "PhysVib. That page is a part of a release (physvib-page): unpacked into the "
+                         "mixer's folder, Share serves it to phones, with a code.",
+                   std::move(ways));
     }
     const auto at = [behind = utf8(link.value)](const juce::String& address) {
         return address.isEmpty() ? address : address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
@@ -1022,25 +1029,20 @@ void MixerWindow::share(bool isElsewhere) {
         view_->setCard(nullptr);
         return at(address);
     };
-    const bool canServe = served_.isEmpty() && PageServer::isThere();
-    const juce::String instead = canServe ? "Serve it here" : "Save as scene" + dots();
-    const auto show = [at, canServe, instead, isServed = served_.isNotEmpty()](QuestionCard& card,
-                                                                               const juce::String& address) {
+    const auto show = [at, isServed = served_.isNotEmpty()](QuestionCard& card, const juce::String& address) {
         const bool isAlone = isLoopback(address), isThere = address.isNotEmpty();
         card.setValue(linkField, at(address));
         for (const char* words : {copyWords, openWords}) card.enable(words, isThere);
-        card.setFirst(isThere || !canServe ? juce::String{copyWords} : instead);
         const auto code = isAlone || !isThere ? juce::Image{} : qrPicture(at(address).toStdString());
         card.setPicture(code, isAlone    ? "No code: this address leads nowhere on a phone, only here"
                               : !isThere ? "A phone's code comes with the address"
                                          : "No code: this world's link is too long for one");
         card.say("Share the world",
-                 isThere ? juce::String{"Who opens the link gets the same world and samples."} +
-                               (isServed ? " The page is here while the mixer runs; a browser warns once of "
-                                           "its certificate."
-                                         : "")
-                 : canServe
-                     ? "Serve it here gives a web page with this world to who is in this network."
+                 isThere
+                     ? juce::String{"Who opens the link gets the same world and samples."} +
+                           (isServed ? " The page is here while the mixer runs; a browser warns once of "
+                                       "its certificate."
+                                     : "")
                      : "Type the address of a web page of PhysVib: the link to this world there follows.");
     };
     std::vector<std::pair<juce::String, std::function<void()>>> answers{
@@ -1051,12 +1053,8 @@ void MixerWindow::share(bool isElsewhere) {
              model_->announce("Copied a link of " + juce::String{words.length()} + " characters");
          }},
         {openWords, [whole] { openLink(whole()); }}};
-    if (served_.isEmpty()) // the first is at the right
-        answers.insert(page.isEmpty() && canServe ? answers.begin() : answers.end(),
-                       {instead, [this, canServe] {
-                            view_->setCard(nullptr);
-                            canServe ? serve() : saveScene(false, folderOfDocuments());
-                        }});
+    if (served_.isEmpty() && PageServer::isThere())
+        answers.push_back({serveWords, [this] { view_->setCard(nullptr), serve(); }});
     ask("Share the world", {}, std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
     show(*view_->question(), page);
 }

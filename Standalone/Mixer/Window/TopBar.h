@@ -20,6 +20,7 @@ public:
     std::function<void(const juce::File&)> onOwnScene;
     void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below the built-in ones
     void setRecording(bool isRecording);                     ///< counts its seconds
+    void setDocument(const juce::String& name) { save_.setTooltip("Save " + name + " (Ctrl+S)"); }
     /// Only the button that silences is left.
     void setShow(bool isShow);
     /// Without the controls of an engineer.

@@ -420,6 +420,13 @@ d <- data.frame(participant = person(6), group = rep(c("g", "h", "h"), 2), y = c
 if (!identical(abs(ours$difference), 0)) fault("equal medians differ by", ours$difference)
 d <- expand.grid(condition = c("x", "y"), participant = person(5)); d$y <- rnorm(10); rows(d[-1, ])
 if (!requireNamespace("lme4", quietly = TRUE) && !any(grepl("lme4", told(anova.test("t", "trials.csv", "y", "condition"))$note))) fault("that lme4 is lacking is not told")
+# Four factors: R numbers A:B, A:C, B:C, A:D.
+if (requireNamespace("lme4", quietly = TRUE)) {
+  d <- expand.grid(a = c("a1", "a2", "a3"), b = c("b1", "b2"), c = c("c1", "c2"), participant = person(10), stringsAsFactors = FALSE)
+  d$group <- ifelse(as.integer(d$participant) %% 2 == 0, "g", "h"); d$y <- rnorm(120) + rnorm(10)[as.integer(d$participant)] + rnorm(30)[as.integer(interaction(d$a, d$participant))]; rows(d[-1, ])
+  ours <- told(anova.test("t", "trials.csv", "y", c("a", "b", "c"), between = "group"))
+  for (effect in c("a:b", "a:c", "b:c", "a:group", "b:group", "c:group", "a:b:c", "a:b:group", "a:c:group", "b:c:group")) if (isTRUE(mixed.line(ours, effect)$df1 != if (grepl("a", effect)) 2 else 1)) fault("the mixed model's", effect, "has", mixed.line(ours, effect)$df1, "degrees of freedom")
+}
 # A level that one person alone has is left out by name, and takes the factor from nobody; who lacks levels, too.
 d <- expand.grid(stimulus = c("high", "low"), condition = c("felt", "glass", "sand"), participant = person(20), stringsAsFactors = FALSE)
 d$y <- rnorm(120, 30 * (d$condition == "sand")); d <- d[!(d$participant < "10" & d$condition == "sand" & d$stimulus == "high"), ]; whole.rows <- d
