@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <functional>
+#include <span>
 
 namespace physvib {
 CollisionCatcher::CollisionCatcher(const FixtureTable& table, ContactGraph& graph)
@@ -180,10 +181,11 @@ inline std::array<float, 4> ChainLoads::Contact::squares() const noexcept {
 
 void ChainLoads::settle() {
     passed_.resize(static_cast<std::size_t>(table_.size()));
-    const std::size_t count = contacts_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const Contact& contact = contacts_.data()[i];
-        if (contact.step != step_ || contact.isUnknown) continue;
+    const std::span<const Contact> contacts{contacts_};
+    const std::uint32_t step = step_;
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        const Contact& contact = contacts[i];
+        if (contact.step != step || contact.isUnknown) continue;
         const std::array<float, 4> squares = contact.squares();
         const auto before = [&](unsigned steps) { return (contact.newest - steps) % 4; };
         const unsigned one = before(1), two = before(2), three = before(3),

@@ -186,6 +186,10 @@ public:
         const auto index = static_cast<std::size_t>(slot);
         return index < passed_.size() ? passed_[index] : nothing;
     }
+    /// The same of a receiver.
+    const Passed& received(std::int32_t receiver) const noexcept {
+        return passed_[static_cast<std::size_t>(receiver)];
+    }
     /// Where most of it was transmitted, in the same step; 0 if nothing was.
     Vector3 pointOf(const Passed& passed) const noexcept {
         return passed.other == FixtureTable::none ? Vector3{} : contacts_[passed.contact].place.point();

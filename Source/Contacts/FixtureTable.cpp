@@ -132,13 +132,6 @@ ContactGraph::ContactGraph(std::size_t edges)
     edges_.reserve(edges);
 }
 
-void ContactGraph::setPassing(std::int32_t node, bool isPassing) {
-    make(node);
-    if (at(node).isPassing == isPassing) return;
-    at(node).isPassing = isPassing;
-    isStale_ = true;
-}
-
 void ContactGraph::insert(std::int32_t a, std::int32_t b) {
     make(std::max(a, b));
     const std::int32_t known = indices_.find(pairKey(a, b));

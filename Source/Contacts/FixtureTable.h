@@ -130,7 +130,12 @@ public:
     explicit ContactGraph(std::size_t edges = 128);
 
     /// Nodes are passing by default. A change costs a rebuild.
-    void setPassing(std::int32_t node, bool isPassing);
+    void setPassing(std::int32_t node, bool isPassing) {
+        make(node);
+        if (at(node).isPassing == isPassing) return;
+        at(node).isPassing = isPassing;
+        isStale_ = true;
+    }
 
     /// Adds a contact between two different nodes (>= 0); two fixtures can have several (chains).
     void insert(std::int32_t a, std::int32_t b);

@@ -28,6 +28,11 @@ struct HardCollision {
 class StrikeCauses {
 public:
     StrikeCauses();
+
+    struct Found {
+        const HardCollision* strongest = nullptr;    // nullptr: none
+        double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
+    };
     void clear() noexcept;
     void add(const HardCollision& strike);
     bool isEmpty() const noexcept { return strikes_.empty(); }
@@ -36,19 +41,15 @@ public:
     void follow(const CollisionCatcher& catcher);
 
     /// Sum and strongest of the collisions that reach a haptic source in the present graph, without its own.
-    /// The first query after add() or follow() visits each collision.
-    struct Found {
-        const HardCollision* strongest = nullptr;    // nullptr: none
-        double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
-    };
-    Found find(std::int32_t camera, ContactGraph& graph) {
-        if (strikes_.empty()) return {};
+    /// The first query after add() or follow() visits each collision. Valid until the next.
+    const Found& find(std::int32_t camera, ContactGraph& graph) {
+        if (strikes_.empty()) return around_ = {};
         if (!isLocated_) locate(graph);
         const std::int32_t component = graph.component(camera);
         if (component == ContactGraph::noComponent || struck_.find(camera) != SlotMap::none)
             return findAround(camera, graph);
         const std::int32_t at = sumOf_.find(component); // the usual case
-        return at == SlotMap::none ? Found{} : sums_[static_cast<std::size_t>(at)];
+        return at == SlotMap::none ? around_ = {} : sums_[static_cast<std::size_t>(at)];
     }
 
     /// The slot is freed or reassigned: drops its collisions.
@@ -56,7 +57,7 @@ public:
 
 private:
     void locate(ContactGraph& graph);
-    Found findAround(std::int32_t camera, ContactGraph& graph);
+    const Found& findAround(std::int32_t camera, ContactGraph& graph);
     void sum(std::int32_t component, std::size_t strike);
     bool isReached(const HardCollision& strike) const noexcept;
 
@@ -66,6 +67,7 @@ private:
     SlotMap sumOf_;                     // by component
     SlotMap struck_;                    // the strongest of a slot's own collisions
     std::vector<std::int32_t> reached_; // components at the current source
+    Found around_;                      // the last that was looked for, or none
 };
 
 // `onset` timing: impacts of haptic sources from the solver's impulses, when a contact begins.

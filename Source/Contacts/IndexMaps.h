@@ -126,6 +126,16 @@ public:
         entries_[index] = {value, age_};
     }
 
+    /// Slots below `slots` may be marked.
+    void fit(std::int32_t slots) {
+        entries_.resize(std::max(entries_.size(), static_cast<std::size_t>(slots)));
+    }
+    /// Sets a value, and asks for any, of a slot for which it fits.
+    void mark(std::int32_t slot) noexcept { entries_[static_cast<std::size_t>(slot)].age = age_; }
+    bool isMarked(std::int32_t slot) const noexcept {
+        return entries_[static_cast<std::size_t>(slot)].age == age_;
+    }
+
     /// Removes all values in constant time: entries of another age count as empty.
     void clear() noexcept {
         if (++age_ != 0) return;

@@ -56,8 +56,9 @@ void OnsetImpacts::strike(const StepSpan& span, std::vector<Impact>& impacts) {
 void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) {
     before_.follow(catcher_);
     isUsed_.clear();
+    isUsed_.fit(table_.size());
     for (const HandedOn& handedOn : waiting_) {
-        isUsed_.set(handedOn.camera, 1);
+        isUsed_.mark(handedOn.camera);
         const auto later = [&] { return before_.find(handedOn.camera, graph_).aftermath; };
         complete(handedOn, catcher_.loads().passed(handedOn.camera), later, span, impacts);
     }
@@ -68,11 +69,11 @@ void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) 
 void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impacts) {
     const double usual = span.thresholdMetresPerSecond(1.0F);
     for (const std::int32_t camera : catcher_.loads().receivers()) {
-        if (isUsed_.find(camera) != SlotMap::none) continue;
-        const StrikeCauses::Found found = before_.find(camera, graph_);
+        if (isUsed_.isMarked(camera)) continue;
+        const StrikeCauses::Found& found = before_.find(camera, graph_);
         if (found.strongest == nullptr) continue;
-        isUsed_.set(camera, 1);
-        const ChainLoads::Passed& now = catcher_.loads().passed(camera);
+        isUsed_.mark(camera);
+        const ChainLoads::Passed& now = catcher_.loads().received(camera);
         const Limit limit = limitOf(camera, now);
         const double threshold =
             limit.gravityScale == 1.0F ? usual : span.thresholdMetresPerSecond(limit.gravityScale);
@@ -131,9 +132,9 @@ void OnsetImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector
 void OnsetImpacts::begin() {
     if (strikes_.isEmpty()) return;
     for (const std::int32_t camera : catcher_.loads().receivers()) {
-        if (isUsed_.find(camera) != SlotMap::none) continue;
-        if (const StrikeCauses::Found found = strikes_.find(camera, graph_); found.strongest != nullptr) {
-            const ChainLoads::Passed passed = catcher_.loads().passed(camera);
+        if (isUsed_.isMarked(camera)) continue;
+        if (const StrikeCauses::Found& found = strikes_.find(camera, graph_); found.strongest != nullptr) {
+            const ChainLoads::Passed& passed = catcher_.loads().received(camera);
             waiting_.push_back(handOn(camera, found, passed, catcher_.loads().pointOf(passed)));
         }
     }
@@ -201,8 +202,8 @@ void StrikeCauses::sum(std::int32_t component, std::size_t strike) {
     sums_[static_cast<std::size_t>(at)].aftermath += strikes_[strike].aftermath;
 }
 
-StrikeCauses::Found StrikeCauses::findAround(std::int32_t camera, ContactGraph& graph) {
-    Found found;
+const StrikeCauses::Found& StrikeCauses::findAround(std::int32_t camera, ContactGraph& graph) {
+    Found& found = around_ = {};
     graph.reach(camera, reached_);
     std::size_t strongest = strikes_.size();
     for (const std::int32_t component : reached_) {
@@ -227,7 +228,7 @@ StrikeCauses::Found StrikeCauses::findAround(std::int32_t camera, ContactGraph& 
         while (strongest < strikes_.size() && (isOwn(strikes_[strongest]) || !isReached(strikes_[strongest])))
             ++strongest;
     }
-    if (strongest == strikes_.size()) return {};
+    if (strongest == strikes_.size()) return found = {};
     found.strongest = &strikes_[strongest];
     return found;
 }

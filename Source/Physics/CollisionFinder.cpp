@@ -383,13 +383,21 @@ inline void CollisionFinder::solveKnown(const b2Contact& contact, const b2Contac
     CollisionCatcher& catcher = events_.catcher();
     ChainLoads::Contact* const usual = catcher.loads().usual(known.pair, known.load);
     const unsigned traits = events_.fixtures().traits(known.pair.a) | events_.fixtures().traits(known.pair.b);
-    if (usual == nullptr || (traits & FixtureTable::source) == 0 ||
-        contact.GetManifold()->type == b2Manifold::e_circles)
-        return solve(contact, impulse, known);
+    if (usual == nullptr || (traits & FixtureTable::source) == 0) return solve(contact, impulse, known);
+    if (contact.GetManifold()->type == b2Manifold::e_circles)
+        return solveDiscs(contact, impulse, known, *usual);
     const SolvedContact solved{contact};
     FaceTouch& touch = catcher.push(*usual, solved.push(impulse, 0U)).setFace();
     solved.note(0, touch);
     if (LastingContacts::isRelevant(traits)) tellUsual(contact, impulse, known, touch);
+}
+
+// The same of two discs, or a disc and a corner.
+void CollisionFinder::solveDiscs(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                 const Known& known, ChainLoads::Contact& usual) {
+    const SolvedContact solved{contact};
+    events_.catcher().push(usual, solved.push(impulse, 0U)).set(toVector(solved.pointOfDiscs()));
+    if (events_.lasting().isRelevant(known.pair.a, known.pair.b)) tellDiscs(contact, impulse, known);
 }
 
 void CollisionFinder::tellUsual(const b2Contact& contact, const b2ContactImpulse& impulse, const Known& known,

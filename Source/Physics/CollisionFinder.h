@@ -202,6 +202,8 @@ private:
     [[gnu::noinline]] void solveUnknown(const b2Contact& contact, const b2ContactImpulse& impulse);
     [[gnu::always_inline]] void solveKnown(const b2Contact& contact, const b2ContactImpulse& impulse,
                                            Known& known);
+    [[gnu::noinline]] void solveDiscs(const b2Contact& contact, const b2ContactImpulse& impulse,
+                                      const Known& known, ChainLoads::Contact& usual);
     [[gnu::noinline]] void solve(const b2Contact& contact, const b2ContactImpulse& impulse, Known& known);
     [[gnu::noinline]] void tell(const b2Contact& contact, const b2ContactImpulse& impulse,
                                 unsigned collisions, const Known& known);
