@@ -15,7 +15,9 @@ g++ -std=c++20 -O2 -ffp-contract=off -ISource -ITests/Benchmarks Tests/Benchmark
     build/library/lib/libphysvib-contacts.a build/library/lib/libphysvib-core.a -lhwy -lbox2d -o $steps
 
 counted() { # PROGRAM ARGUMENTS...: instructions
-    valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=counted "$@" 2>&1 | awk '/Collected/ { print $4 }'
+    count=$(valgrind --tool=callgrind --callgrind-out-file=/dev/null --toggle-collect=counted "$@" 2>&1 | awk '/Collected/ { print $4 }')
+    [ "${count:-0}" -gt 0 ] || { echo "instructions.sh: valgrind ended $*: expected a processor that it knows" >&2; kill $$; }
+    echo "$count"
 }
 per_step() { # WORLD BODIES OPTION: from the 100th step to the 300th, which alone are counted: exact
     echo $(($(counted $steps "$@" 300) / 200))
