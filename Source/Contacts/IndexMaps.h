@@ -130,8 +130,8 @@ public:
     void fit(std::int32_t slots) {
         entries_.resize(std::max(entries_.size(), static_cast<std::size_t>(slots)));
     }
-    /// Sets a value, and asks for any, of a slot for which it fits.
-    void mark(std::int32_t slot) noexcept { entries_[static_cast<std::size_t>(slot)].age = age_; }
+    /// Sets 0, where it only matters whether there is a value.
+    void mark(std::int32_t slot) noexcept { entries_[static_cast<std::size_t>(slot)] = {0, age_}; }
     bool isMarked(std::int32_t slot) const noexcept {
         return entries_[static_cast<std::size_t>(slot)].age == age_;
     }
