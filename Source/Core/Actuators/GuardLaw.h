@@ -99,9 +99,12 @@ public:
         std::size_t silent = 0;
         while (silent < channels_ && areas[silent] == 0.0f) ++silent;
         const bool isSilent = silent == channels_;
+        if (isSilent && isAtRest()) return false; // tones too weak for a unit: there is nothing to clear
         silentSeconds_ = isSilent ? silentSeconds_ + tile_ : 0.0f;
-        if (silentSeconds_ >= forgetSeconds) clear();
-        if (isAtRest()) return false;
+        if (isAtRest()) {
+            clear();
+            return false;
+        }
         const float least = follow(areas);
         if (++partTile_ >= partTiles_) endPart();
         episodes_ += least < 1.0f && gain_ == 1.0f ? 1 : 0;

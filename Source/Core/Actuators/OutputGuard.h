@@ -38,11 +38,13 @@ public:
         law_.setTile(static_cast<float>(tile_) / static_cast<float>(sampleRateHz));
         perUnit_ = 1.0f / (GuardUnits::perFullScale * static_cast<float>(sampleRateHz));
         filled_ = 0;
+        frame_ = nowhere;
     }
 
     /// M, not while rendering.
     GuardSums sums(std::size_t channel) noexcept {
         if (hasSums_) endTile();
+        frame_ = nowhere;
         return law_.sums(channel);
     }
     /// Goes on with these, one per channel. M, after prepare().
@@ -57,14 +59,17 @@ public:
     /// Sets the absolute number of the next frame. Tiles lie on the grid of these numbers, so that samples do
     /// not depend on the output latency. Without it the grid starts at prepare. R.
     void moveTo(std::int64_t frame) noexcept {
+        if (frame == frame_) return; // it goes on: no division
         const auto at = static_cast<int>((frame % tile_ + tile_) % tile_);
         if (at != filled_ && hasSums_) endTile();
         filled_ = at;
+        frame_ = frame;
     }
 
     /// In place: io[channel][0..frames), finite, up to 8 times full scale; null: a channel without output.
     /// `isSilent`: all of it is 0.
     void process(float* const* io, int frames, bool isSilent = false) noexcept {
+        frame_ += frames;
         if (isSilent && !hasSums_ && law_.isAtRest()) {
             filled_ = (filled_ + frames) % tile_;
             return;
@@ -144,6 +149,8 @@ private:
     GuardLaw<limits::maxEnchanters> law_;
     std::array<std::int32_t, width> sums_{};
     std::size_t channels_ = 0;
+    static constexpr std::int64_t nowhere = std::numeric_limits<std::int64_t>::min();
+    std::int64_t frame_ = nowhere; // the next one's number; about `nowhere`: not known
     int tile_ = 1, filled_ = 0;
     float perUnit_ = 1.0f;
     bool acts_ = false, hasSums_ = false;

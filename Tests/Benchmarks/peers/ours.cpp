@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// PhysVib itself: the mode bank (-DCHAIN: the whole renderer with panning, actuators and limiter, in which
-// gains are put on the enchanters by one event per voice and enchanter).
+// PhysVib itself: the mode bank (-DCHAIN=FRAMES: the whole renderer with panning, actuators and limiter, in
+// which gains are put on the enchanters by one event per voice and enchanter). So many frames are rendered
+// before the first that counts: 128, and blocks are tiles, as live; 47, the latency alone, and each block
+// has parts of two tiles.
 #include "Core/HapticRenderer.h"
 #include "Voices.h"
 #include <memory>
@@ -35,11 +37,12 @@ int main(int, char** arguments) {
             e.amplitude = v.amplitude * v.gains[j];
             e.x = layout.places[static_cast<std::size_t>(j)].xMetres;
             e.y = layout.places[static_cast<std::size_t>(j)].yMetres;
+            e.timeNs = (CHAIN - renderer->latencyFrames()) * 1'000'000'000LL / rate; // exact for both
             source.events.push_back(e);
         }
     float scratch[channels][block];
     float* skipped[channels] = {scratch[0], scratch[1], scratch[2], scratch[3]};
-    renderer->render(source, skipped, renderer->latencyFrames());
+    for (int left = CHAIN; left > 0; left -= block) renderer->render(source, skipped, std::min(left, block));
     return play(arguments, [&](float* const* out, long) { renderer->render(source, out, block); });
 }
 #else

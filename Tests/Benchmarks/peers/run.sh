@@ -25,7 +25,8 @@ compile() { # NAME SOURCE FLAGS...: everybody else gets the flags that suit it b
 }
 libraries="build/library/lib/libphysvib-core.a -lhwy"
 compile ours ours.cpp -O3 -ISource
-compile chain ours.cpp -O3 -ISource -DCHAIN
+compile chain ours.cpp -O3 -ISource -DCHAIN=128
+compile chain-across ours.cpp -O3 -ISource -DCHAIN=47
 libraries=
 compile naive-O3 naive.cpp -O3 -DREAL=double
 compile simd simd.cpp -Ofast -march=native
