@@ -10,7 +10,8 @@
 namespace physvib {
 CollisionCatcher::CollisionCatcher(const FixtureTable& table, ContactGraph& graph)
     : table_(table)
-    , graph_(graph) {
+    , graph_(graph)
+    , pairs_(graph.pairs()) {
     collisions_.reserve(expectedCollisions);
     ends_.reserve(expectedCollisions);
     last_.reserve(expectedCollisions);
@@ -46,8 +47,8 @@ void CollisionCatcher::endStep() {
             struckNames_.add(struck_.back());
         }
     }
-    loads_.endStep(graph_);
-    pairs_.endStep(graph_);
+    loads_.endStep();
+    pairs_.endStep();
     hasHeard_ = false;
     collisions_.clear();
     ends_.clear();
@@ -66,21 +67,21 @@ void CollisionCatcher::forget(std::int32_t slot) noexcept {
     }
     std::erase_if(ends_, isOf);
     loads_.forget(slot);
-    pairs_.loosen(slot);
 }
 
-void CollisionCatcher::begin(std::int32_t a, std::int32_t b) {
-    graph_.insert(a, b);
+std::int32_t CollisionCatcher::begin(std::int32_t a, std::int32_t b) {
+    const std::int32_t number = graph_.insert(a, b);
     meet(a, b);
-    if (isStepping_ && touchesSource(a, b)) loads_.begin({a, b, know(a, b)});
+    if (isStepping_ && touchesSource(a, b)) loads_.begin({a, b, number});
+    return number;
 }
 
-ContactEnd* CollisionCatcher::end(std::int32_t a, std::int32_t b) {
-    cut(a, b);
+ContactEnd* CollisionCatcher::end(const TouchingPairs::Name& pair) {
+    graph_.erase(pair.number);
     if (ends_.size() == maxDirectCollisions + maxDistantCollisions) return nullptr;
     ContactEnd& end = ends_.emplace_back();
-    end.a = a;
-    end.b = b;
+    end.a = pair.a;
+    end.b = pair.b;
     end.order = order_++;
     return &end;
 }
@@ -203,7 +204,11 @@ inline void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newt
                              std::size_t contact) {
     if (!table_.isCamera(slot)) return;
     Passed& passed = passed_[static_cast<std::size_t>(slot)];
-    if (passed.other == FixtureTable::none) receivers_.push_back(slot);
+    if (passed.other == FixtureTable::none) {
+        receivers_.push_back(slot);
+        passed = {newtonSeconds, size, other, contact};
+        return;
+    }
     passed.newtonSeconds += newtonSeconds;
     if (size <= passed.strongest) return;
     passed.strongest = size;
@@ -212,13 +217,14 @@ inline void ChainLoads::pass(std::int32_t slot, std::int32_t other, Vector3 newt
 }
 
 // What has ended and pushes no more is dropped, from the last on: sums depend on the order of the others.
-void ChainLoads::endStep(const ContactGraph& graph) {
-    for (const std::int32_t slot : receivers_) passed_[static_cast<std::size_t>(slot)] = {};
+void ChainLoads::endStep() {
+    for (const std::int32_t slot : receivers_)
+        passed_[static_cast<std::size_t>(slot)].other = FixtureTable::none;
     receivers_.clear();
     ended_.clear();
     pairs_.forLoose([&](const TouchingPairs::Pair& pair) {
         if (pair.load != TouchingPairs::none &&
-            contacts_[static_cast<std::size_t>(pair.load)].step != step_ && !graph.isTouching(pair.a, pair.b))
+            contacts_[static_cast<std::size_t>(pair.load)].step != step_ && !pair.isTouching())
             ended_.push_back(pair.load);
     });
     std::sort(ended_.begin(), ended_.end(), std::greater<>{});

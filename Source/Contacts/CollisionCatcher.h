@@ -4,7 +4,6 @@
 #include "Contacts/ContactCounts.h"
 #include "Contacts/FixtureTable.h"
 #include "Contacts/Impact.h"
-#include "Contacts/IndexMaps.h"
 #include "Contacts/Vectors.h"
 #include <array>
 #include <cstddef>
@@ -12,94 +11,6 @@
 #include <vector>
 
 namespace physvib {
-
-// Numbers for pairs of touching fixtures, under which their data are stored and found without a search.
-
-/// A pair of slots has a number while it touches or while one of its fields is set. Check a number kept for
-/// longer with `is`. Allocates only to grow. World thread (M).
-class TouchingPairs {
-public:
-    static constexpr std::int32_t none = IntegerMap::none;
-
-    /// Two slots in the order of their contact, and their number.
-    struct Name {
-        std::int32_t a = none, b = none, number = none;
-    };
-
-    struct Pair {
-        std::int32_t a = none, b = none; ///< slots in any order; none: the number is free
-        std::int32_t collision = none;   ///< index of its collision in this step
-        std::int32_t last = none;        ///< index of its collision in the last step
-        std::int32_t load = none;        ///< index of its resting load
-    };
-
-    explicit TouchingPairs(std::size_t pairs = 128)
-        : numbers_(pairs) {
-        pairs_.reserve(pairs);
-        free_.reserve(pairs);
-        loose_.reserve(pairs);
-    }
-
-    /// The number of a pair, a new one if necessary.
-    std::int32_t know(std::int32_t a, std::int32_t b) {
-        if (const std::int32_t known = numbers_.find(pairKey(a, b)); known != none) return known;
-        if (free_.empty()) {
-            free_.push_back(static_cast<std::int32_t>(pairs_.size()));
-            pairs_.emplace_back();
-        }
-        const std::int32_t number = free_.back();
-        free_.pop_back();
-        numbers_.set(pairKey(a, b), number);
-        (*this)[number] = {.a = a, .b = b};
-        loose_.push_back(number);
-        return number;
-    }
-
-    bool is(const Name& name) const noexcept {
-        if (name.number == none) return false;
-        const Pair& pair = (*this)[name.number];
-        return (pair.a == name.a && pair.b == name.b) || (pair.a == name.b && pair.b == name.a);
-    }
-
-    Pair& operator[](std::int32_t number) noexcept { return pairs_[static_cast<std::size_t>(number)]; }
-    const Pair& operator[](std::int32_t number) const noexcept {
-        return pairs_[static_cast<std::size_t>(number)];
-    }
-
-    /// Contacts of a pair, or of all pairs of a slot, have ended: the number is freed once no field is set.
-    void loosen(std::int32_t a, std::int32_t b) {
-        if (const std::int32_t known = numbers_.find(pairKey(a, b)); known != none) loose_.push_back(known);
-    }
-    void loosen(std::int32_t slot) {
-        for (const Pair& pair : pairs_)
-            if (pair.a == slot || pair.b == slot) loosen(pair.a, pair.b);
-    }
-
-    /// Calls see(pair) for pairs that may have ended, some of them twice.
-    template <class See>
-    void forLoose(See see) const {
-        for (const std::int32_t number : loose_) see((*this)[number]);
-    }
-
-    /// Call at the end of a step: frees numbers.
-    void endStep(const ContactGraph& graph) {
-        std::erase_if(loose_, [&](std::int32_t number) {
-            Pair& pair = (*this)[number];
-            if (pair.a == none || graph.isTouching(pair.a, pair.b)) return true;
-            if (pair.collision != none || pair.last != none || pair.load != none) return false;
-            numbers_.erase(pairKey(pair.a, pair.b));
-            pair = {};
-            free_.push_back(number);
-            return true;
-        });
-    }
-
-private:
-    std::vector<Pair> pairs_;
-    IntegerMap numbers_; // by the pair
-    std::vector<std::int32_t> free_;
-    std::vector<std::int32_t> loose_; // candidates to be freed
-};
 
 // Finds impulses that reach haptic sources through existing contacts: impacts that neighbours transmit.
 
@@ -184,7 +95,8 @@ public:
     const Passed& passed(std::int32_t slot) const noexcept {
         static constexpr Passed nothing{};
         const auto index = static_cast<std::size_t>(slot);
-        return index < passed_.size() ? passed_[index] : nothing;
+        const bool isReceiver = index < passed_.size() && passed_[index].other != FixtureTable::none;
+        return isReceiver ? passed_[index] : nothing;
     }
     /// The same of a receiver.
     const Passed& received(std::int32_t receiver) const noexcept {
@@ -201,7 +113,7 @@ public:
     }
 
     /// Ends the step: its impulses become history. Sleeping bodies keep their load.
-    void endStep(const ContactGraph& graph);
+    void endStep();
 
     /// The slot is freed or reassigned: drops its contacts.
     void forget(std::int32_t slot) noexcept;
@@ -257,17 +169,15 @@ public:
     bool hasHeard() const noexcept { return hasHeard_; }
 
     /// A contact of two solid fixtures begins; a pair may have several (the segments of a chain).
-    void begin(std::int32_t a, std::int32_t b);
+    std::int32_t begin(std::int32_t a, std::int32_t b);
 
     /// One of them ends. Fill in the returned record with time and motions. nullptr: no room, and the contact
     /// is treated as if it had not ended.
-    ContactEnd* end(std::int32_t a, std::int32_t b);
+    ContactEnd* end(std::int32_t a, std::int32_t b) { return end({a, b, pairs_.find(a, b)}); }
+    ContactEnd* end(const TouchingPairs::Name& pair); ///< its number: known, or none
 
     /// One of them has ended outside a step.
-    void cut(std::int32_t a, std::int32_t b) {
-        graph_.erase(a, b);
-        pairs_.loosen(a, b);
-    }
+    void cut(std::int32_t a, std::int32_t b) { graph_.erase(a, b); }
 
     /// Counts a new contact point of two fixtures that the engine distinguishes from the pair's other points.
     void meet(std::int32_t a, std::int32_t b) noexcept {
@@ -368,7 +278,7 @@ private:
 
     const FixtureTable& table_;
     ContactGraph& graph_;
-    TouchingPairs pairs_;
+    TouchingPairs& pairs_; // the graph's
     ChainLoads loads_{table_, pairs_};
     StepSpan span_;
     std::vector<Collision> collisions_; // of this step

@@ -48,7 +48,7 @@ void EventMaker::addModesOf(const SmallImpact& impact) {
     if (isMuted_) return;
     for (const Mode& mode : std::span{modes_.data(), static_cast<std::size_t>(modeCount_)}) {
         setMode(mode);
-        sound(mode, impact, amplitudeOf(impact));
+        sound(mode, impact, amplitudeOf(impact.newtonSeconds));
     }
 }
 
@@ -80,10 +80,10 @@ void EventMaker::setSource(std::int32_t camera) {
     if (isMuted_) return;
     event_.source.fixture = of.id;
     event_.source.massKg = massOf(of, bodies_);
-    const ImpactModel own = modelOf(of.values, model_);
-    const bool isScaled = own.fullScaleNewtonSeconds > 0.0;
-    perNewtonSecond_ = isScaled ? own.driveGain : own.driveGain * own.normalisation;
-    amplitudeDivisor_ = isScaled ? own.fullScaleNewtonSeconds : event_.source.massKg + own.handMassKg;
+    const bool isScaled = model_.fullScaleNewtonSeconds > 0.0;
+    perNewtonSecond_ = isScaled ? model_.driveGain : model_.driveGain * model_.normalisation;
+    amplitudeDivisor_ = isScaled ? model_.fullScaleNewtonSeconds
+                                 : event_.source.massKg + of.values.handMassKg.value_or(model_.handMassKg);
     event_.source.part = of.values.part;
     if (settings_.location == ImpactLocation::fixture) place(bodies_.toWorld(of.body.body, of.centre));
 }

@@ -122,35 +122,39 @@ double FixtureTable::largestStaticMassKg(const BodyReader& bodies) {
 // Connected components of the contact graph by union-find over the live edges.
 
 inline void ContactGraph::unite(const Edge& edge) noexcept {
-    if (!at(edge.a).isPassing || !at(edge.b).isPassing) return;
+    if (!edge.unites) return;
     const std::int32_t a = root(edge.a), b = root(edge.b);
     at(std::max(a, b)).parent = std::min(a, b);
 }
 
 ContactGraph::ContactGraph(std::size_t edges)
-    : indices_(edges) {
+    : pairs_(edges) {
     edges_.reserve(edges);
 }
 
-void ContactGraph::insert(std::int32_t a, std::int32_t b) {
+void ContactGraph::changePassing(std::int32_t node) noexcept {
+    at(node).isPassing = !at(node).isPassing;
+    for (Edge& edge : edges_) edge.unites = unites(edge.a, edge.b);
+    isStale_ = true;
+}
+
+std::int32_t ContactGraph::insert(std::int32_t a, std::int32_t b) {
     make(std::max(a, b));
-    const std::int32_t known = indices_.find(pairKey(a, b));
-    if (known != IntegerMap::none) {
-        ++edges_[static_cast<std::size_t>(known)].contacts;
-        return;
-    }
-    indices_.set(pairKey(a, b), static_cast<std::int32_t>(edges_.size()));
-    edges_.push_back({a, b, 1});
+    const std::int32_t number = pairs_.know(a, b);
+    TouchingPairs::Pair& pair = pairs_[number];
+    ++pair.contacts;
+    if (pair.isTouching()) return number;
+    pair.edge = static_cast<std::int32_t>(edges_.size());
+    edges_.push_back({a, b, number, unites(a, b)});
     ++at(a).degree;
     ++at(b).degree;
     if (!isStale_) unite(edges_.back());
+    return number;
 }
 
-void ContactGraph::erase(std::int32_t a, std::int32_t b) {
-    const std::int32_t known = indices_.find(pairKey(a, b));
-    if (known == IntegerMap::none) return;
-    const auto edge = static_cast<std::size_t>(known);
-    if (--edges_[edge].contacts == 0) drop(edge);
+void ContactGraph::erase(std::int32_t pair) {
+    if (pair == TouchingPairs::none || !pairs_[pair].isTouching()) return;
+    if (--pairs_[pair].contacts == 0) drop(static_cast<std::size_t>(pairs_[pair].edge));
 }
 
 void ContactGraph::isolate(std::int32_t node) {
@@ -163,10 +167,13 @@ void ContactGraph::isolate(std::int32_t node) {
 
 void ContactGraph::reach(std::int32_t node, std::vector<std::int32_t>& components) {
     components.clear();
+    prepare(node + 1);
     const auto add = [&](std::int32_t from) {
-        const std::int32_t found = component(from);
-        const bool isNew = std::find(components.begin(), components.end(), found) == components.end();
-        if (found != noComponent && isNew) components.push_back(found);
+        const std::int32_t found = preparedComponent(from);
+        if (found == noComponent) return;
+        for (const std::int32_t earlier : components)
+            if (earlier == found) return;
+        components.push_back(found);
     };
     if (isPassing(node))
         add(node);
@@ -174,20 +181,17 @@ void ContactGraph::reach(std::int32_t node, std::vector<std::int32_t>& component
         forNeighbours(node, add);
 }
 
-bool ContactGraph::isTouching(std::int32_t a, std::int32_t b) const noexcept {
-    return indices_.find(pairKey(a, b)) != IntegerMap::none;
-}
-
-void ContactGraph::drop(std::size_t edge) noexcept {
+void ContactGraph::drop(std::size_t edge) {
     const Edge gone = edges_[edge];
     for (const std::int32_t node : {gone.a, gone.b})
         if (--at(node).degree == 0) at(node).parent = node; // so that a rebuild visits only nodes with edges
-    indices_.erase(pairKey(gone.a, gone.b));
+    pairs_[edges_.back().pair].edge = static_cast<std::int32_t>(edge);
     edges_[edge] = edges_.back();
     edges_.pop_back();
-    if (edge < edges_.size())
-        indices_.set(pairKey(edges_[edge].a, edges_[edge].b), static_cast<std::int32_t>(edge));
-    if (at(gone.a).isPassing && at(gone.b).isPassing) isStale_ = true;
+    pairs_[gone.pair].edge = TouchingPairs::none;
+    pairs_[gone.pair].contacts = 0;
+    pairs_.loosen(gone.pair);
+    isStale_ = isStale_ || gone.unites;
 }
 
 void ContactGraph::rebuild() noexcept {

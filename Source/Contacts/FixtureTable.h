@@ -5,6 +5,7 @@
 #include "Contacts/HapticFixture.h"
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -114,6 +115,95 @@ private:
     bool isWeightStale_ = false;
 };
 
+// Numbers for pairs of touching fixtures, under which their data are stored and found without a search.
+
+/// A pair of slots has a number while it touches or while one of its fields is set. Check a number kept for
+/// longer with `is`. Allocates only to grow. World thread (M).
+class TouchingPairs {
+public:
+    static constexpr std::int32_t none = IntegerMap::none;
+
+    /// Two slots in the order of their contact, and their number.
+    struct Name {
+        std::int32_t a = none, b = none, number = none;
+    };
+
+    struct Pair {
+        std::int32_t a = none, b = none; ///< slots in any order; none: the number is free
+        std::int32_t contacts = 0;       ///< that touch
+        std::int32_t edge = none;        ///< the graph's; none: nothing touches
+        std::int32_t collision = none;   ///< index of its collision in this step
+        std::int32_t last = none;        ///< index of its collision in the last step
+        std::int32_t load = none;        ///< index of its resting load
+
+        bool isTouching() const noexcept { return edge != none; }
+    };
+
+    explicit TouchingPairs(std::size_t pairs)
+        : numbers_(pairs) {
+        pairs_.reserve(pairs);
+        free_.reserve(pairs);
+        loose_.reserve(pairs);
+    }
+
+    /// The number of a pair, or `none`.
+    std::int32_t find(std::int32_t a, std::int32_t b) const noexcept { return numbers_.find(pairKey(a, b)); }
+
+    /// The number of a pair, a new one if necessary.
+    std::int32_t know(std::int32_t a, std::int32_t b) {
+        if (const std::int32_t known = find(a, b); known != none) return known;
+        if (free_.empty()) {
+            free_.push_back(static_cast<std::int32_t>(pairs_.size()));
+            pairs_.emplace_back();
+        }
+        const std::int32_t number = free_.back();
+        free_.pop_back();
+        numbers_.set(pairKey(a, b), number);
+        (*this)[number] = {.a = a, .b = b};
+        loosen(number);
+        return number;
+    }
+
+    bool is(const Name& name) const noexcept {
+        if (name.number == none) return false;
+        const Pair& pair = (*this)[name.number];
+        return (pair.a == name.a && pair.b == name.b) || (pair.a == name.b && pair.b == name.a);
+    }
+
+    Pair& operator[](std::int32_t number) noexcept { return pairs_[static_cast<std::size_t>(number)]; }
+    const Pair& operator[](std::int32_t number) const noexcept {
+        return pairs_[static_cast<std::size_t>(number)];
+    }
+
+    /// All contacts of a pair have ended: the number is freed once no field is set.
+    void loosen(std::int32_t number) { loose_.push_back(number); }
+
+    /// Calls see(pair) for pairs that may have ended, some of them twice.
+    template <class See>
+    void forLoose(See see) const {
+        for (const std::int32_t number : loose_) see((*this)[number]);
+    }
+
+    /// Call at the end of a step: frees numbers.
+    void endStep() {
+        std::erase_if(loose_, [&](std::int32_t number) {
+            Pair& pair = (*this)[number];
+            if (pair.a == none || pair.isTouching()) return true;
+            if (pair.collision != none || pair.last != none || pair.load != none) return false;
+            numbers_.erase(pairKey(pair.a, pair.b));
+            pair = {};
+            free_.push_back(number);
+            return true;
+        });
+    }
+
+private:
+    std::vector<Pair> pairs_;
+    IntegerMap numbers_; // by the pair
+    std::vector<std::int32_t> free_;
+    std::vector<std::int32_t> loose_; // candidates to be freed
+};
+
 // Contact graph: which fixtures are connected through touching ones (the thesis' contact-state graph, 5.1.3).
 
 /// Undirected graph over small indices, updated edge by edge as contacts begin and end. The thesis searches
@@ -129,19 +219,22 @@ public:
     /// Capacity in pairs without an allocation.
     explicit ContactGraph(std::size_t edges = 128);
 
+    /// The numbers of its edges' pairs, and of pairs that others know.
+    TouchingPairs& pairs() noexcept { return pairs_; }
+
     /// Nodes are passing by default. A change costs a rebuild.
     void setPassing(std::int32_t node, bool isPassing) {
         make(node);
-        if (at(node).isPassing == isPassing) return;
-        at(node).isPassing = isPassing;
-        isStale_ = true;
+        if (at(node).isPassing != isPassing) changePassing(node);
     }
 
-    /// Adds a contact between two different nodes (>= 0); two fixtures can have several (chains).
-    void insert(std::int32_t a, std::int32_t b);
+    /// Adds a contact between two different nodes (>= 0); two fixtures can have several (chains). Returns the
+    /// number of the pair.
+    std::int32_t insert(std::int32_t a, std::int32_t b);
 
-    /// Removes one contact; no effect if there is none.
-    void erase(std::int32_t a, std::int32_t b);
+    /// Removes one contact of that pair, or of the pair of that number; no effect if there is none.
+    void erase(std::int32_t a, std::int32_t b) { erase(pairs_.find(a, b)); }
+    void erase(std::int32_t pair);
 
     /// Removes all contacts of a node, and makes it passing.
     void isolate(std::int32_t node);
@@ -149,8 +242,15 @@ public:
     /// Equal for nodes that are connected through passing ones; noComponent for a node that is not passing.
     /// Valid until the next change.
     std::int32_t component(std::int32_t node) {
-        make(node);
+        prepare(node + 1);
+        return preparedComponent(node);
+    }
+    /// The same of nodes below `nodes`, for many at once.
+    void prepare(std::int32_t nodes) {
+        make(nodes - 1);
         if (isStale_) rebuild();
+    }
+    std::int32_t preparedComponent(std::int32_t node) noexcept {
         return at(node).isPassing ? root(node) : noComponent;
     }
 
@@ -162,7 +262,10 @@ public:
         const auto index = static_cast<std::size_t>(node);
         return index >= nodes_.size() || nodes_[index].isPassing;
     }
-    bool isTouching(std::int32_t a, std::int32_t b) const noexcept;
+    bool isTouching(std::int32_t a, std::int32_t b) const noexcept {
+        const std::int32_t pair = pairs_.find(a, b);
+        return pair != TouchingPairs::none && pairs_[pair].isTouching();
+    }
 
     /// Calls see(neighbour) for each node that touches `node`. Iterates over all edges.
     template <class See>
@@ -185,7 +288,8 @@ public:
 private:
     struct Edge {
         std::int32_t a, b;
-        std::int32_t contacts;
+        std::int32_t pair;
+        bool unites; // both are passing
     };
     struct Node {
         std::int32_t parent = 0;
@@ -196,10 +300,12 @@ private:
 
     Node& at(std::int32_t node) { return nodes_[static_cast<std::size_t>(node)]; }
     void make(std::int32_t node) {
-        while (nodes_.size() <= static_cast<std::size_t>(node))
+        while (static_cast<std::int32_t>(nodes_.size()) <= node)
             nodes_.push_back({static_cast<std::int32_t>(nodes_.size())});
     }
-    void drop(std::size_t edge) noexcept;
+    [[gnu::noinline]] void changePassing(std::int32_t node) noexcept;
+    bool unites(std::int32_t a, std::int32_t b) noexcept { return at(a).isPassing && at(b).isPassing; }
+    void drop(std::size_t edge);
     std::int32_t root(std::int32_t node) noexcept {
         while (at(node).parent != node) {
             at(node).parent = at(at(node).parent).parent; // path halving
@@ -212,7 +318,7 @@ private:
 
     std::vector<Node> nodes_;
     std::vector<Edge> edges_;
-    IntegerMap indices_; // edges by pair of nodes
+    TouchingPairs pairs_; // each that touches has the index of its edge
     bool isStale_ = false;
     std::uint32_t visits_ = 0;
 };

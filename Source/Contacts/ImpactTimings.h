@@ -44,8 +44,16 @@ public:
     /// The first query after add() or follow() visits each collision. Valid until the next.
     const Found& find(std::int32_t camera, ContactGraph& graph) {
         if (strikes_.empty()) return around_ = {};
+        prepare(graph, camera + 1);
+        return findPrepared(camera, graph);
+    }
+    /// The same for many sources, below `slots`, if there are collisions.
+    void prepare(ContactGraph& graph, std::int32_t slots) {
+        graph.prepare(slots);
         if (!isLocated_) locate(graph);
-        const std::int32_t component = graph.component(camera);
+    }
+    const Found& findPrepared(std::int32_t camera, ContactGraph& graph) {
+        const std::int32_t component = graph.preparedComponent(camera);
         if (component == ContactGraph::noComponent || struck_.find(camera) != SlotMap::none)
             return findAround(camera, graph);
         const std::int32_t at = sumOf_.find(component); // the usual case

@@ -68,9 +68,10 @@ void OnsetImpacts::complete(const StepSpan& span, std::vector<Impact>& impacts) 
 // Haptic sources that transmitted impulses of the last step's collisions reach only in this step.
 void OnsetImpacts::completeLate(const StepSpan& span, std::vector<Impact>& impacts) {
     const double usual = span.thresholdMetresPerSecond(1.0F);
+    before_.prepare(graph_, table_.size());
     for (const std::int32_t camera : catcher_.loads().receivers()) {
         if (isUsed_.isMarked(camera)) continue;
-        const StrikeCauses::Found& found = before_.find(camera, graph_);
+        const StrikeCauses::Found& found = before_.findPrepared(camera, graph_);
         if (found.strongest == nullptr) continue;
         isUsed_.mark(camera);
         const ChainLoads::Passed& now = catcher_.loads().received(camera);
@@ -131,9 +132,10 @@ void OnsetImpacts::finish(std::int32_t camera, const StepSpan& span, std::vector
 
 void OnsetImpacts::begin() {
     if (strikes_.isEmpty()) return;
+    strikes_.prepare(graph_, table_.size());
     for (const std::int32_t camera : catcher_.loads().receivers()) {
         if (isUsed_.isMarked(camera)) continue;
-        if (const StrikeCauses::Found& found = strikes_.find(camera, graph_); found.strongest != nullptr) {
+        if (const auto& found = strikes_.findPrepared(camera, graph_); found.strongest != nullptr) {
             const ChainLoads::Passed& passed = catcher_.loads().received(camera);
             waiting_.push_back(handOn(camera, found, passed, catcher_.loads().pointOf(passed)));
         }
@@ -241,8 +243,9 @@ void StrikeCauses::forget(std::int32_t slot) noexcept {
 
 bool StrikeCauses::isReached(const HardCollision& strike) const noexcept {
     const auto isIn = [&](std::int32_t component) {
-        return component != ContactGraph::noComponent &&
-               std::find(reached_.begin(), reached_.end(), component) != reached_.end();
+        for (const std::int32_t reached : reached_)
+            if (reached == component) return true;
+        return false;
     };
     return isIn(strike.componentA) || isIn(strike.componentB);
 }

@@ -128,7 +128,7 @@ Attachment::Attachment(b2World& world, const ImpactSettings& settings)
     : world_(&world)
     , parts_(std::make_unique<Parts>(world, settings)) {
     for (const b2Contact* contact = world.GetContactList(); contact != nullptr; contact = contact->GetNext())
-        parts_->listener->finder().begin(*contact);
+        parts_->listener->finder().begin(*contact, false);
     parts_->listener->install(world);
     parts_->sweeps.makeRoom(static_cast<std::size_t>(world.GetBodyCount()));
 }
@@ -309,7 +309,7 @@ private:
 void WorldListener::BeginContact(b2Contact* contact) {
     const Call call{*this, contact};
     if (!call) return;
-    if (finder_) finder_->begin(*contact);
+    if (finder_) finder_->begin(*contact, isAlone_);
     if (chained_ != nullptr) chained_->BeginContact(contact);
 }
 

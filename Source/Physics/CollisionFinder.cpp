@@ -63,8 +63,9 @@ CollisionFinder::Known* CollisionFinder::search(const b2Contact& contact) {
 CollisionFinder::Known& CollisionFinder::remember(const b2Contact& contact, Pair pair) {
     std::int32_t at = knownAt_.find(idOf(contact));
     if (at == IntegerMap::none) {
-        if (knownCount_ == known_.size()) known_.resize(2 * knownCount_);
-        at = static_cast<std::int32_t>(knownCount_++);
+        if (free_.empty()) addPlaces(2 * known_.size());
+        at = free_.back();
+        free_.pop_back();
         knownAt_.set(idOf(contact), at);
     }
     Known& known = known_[static_cast<std::size_t>(at)];
@@ -77,18 +78,23 @@ void CollisionFinder::forget(const b2Contact& contact) noexcept {
     const std::int32_t at = knownAt_.find(idOf(contact));
     if (at == IntegerMap::none) return;
     knownAt_.erase(idOf(contact));
-    Known &hole = known_[static_cast<std::size_t>(at)], &last = known_[--knownCount_];
-    if (&hole != &last) {
-        hole = last;
-        knownAt_.set(idOf(*hole.contact), at);
-    }
-    last = {};
+    known_[static_cast<std::size_t>(at)].contact = nullptr;
+    free_.push_back(at);
+}
+
+// The lowest place is taken first, so that those in use lie together.
+void CollisionFinder::addPlaces(std::size_t all) {
+    free_.reserve(all);
+    for (std::size_t at = all; at > known_.size(); --at) free_.push_back(static_cast<std::int32_t>(at - 1));
+    known_.resize(all);
 }
 
 void CollisionFinder::forgetContacts() noexcept {
-    std::fill_n(known_.begin(), knownCount_, Known{});
-    knownCount_ = 0;
+    known_.clear();
+    free_.clear();
+    addPlaces(known_.capacity()); // nothing is allocated
     knownAt_.clear();
+    begun_ = nullptr;
 }
 
 std::int32_t CollisionFinder::know(const b2Fixture& fixture) {
@@ -103,22 +109,23 @@ CollisionFinder::Known& CollisionFinder::know(const b2Contact& contact) {
     return remember(contact, {.a = a, .b = b});
 }
 
-void CollisionFinder::begin(const b2Contact& contact) {
+void CollisionFinder::begin(const b2Contact& contact, bool isFollowed) {
     if (!isSolid(contact) || !contact.IsTouching()) return;
-    const Pair& pair = know(contact).pair;
-    events_.catcher().begin(pair.a, pair.b);
+    Known& known = know(contact);
+    known.pair.number = events_.catcher().begin(known.pair.a, known.pair.b);
+    begun_ = isFollowed ? &known : nullptr;
 }
 
 void CollisionFinder::end(const b2Contact& contact) {
     fresh_.forget(contact);
-    const Known* const found = find(contact);
-    const Pair pair = found != nullptr ? found->pair : Pair{};
+    Known* const found = find(contact);
+    const Pair pair = found != nullptr ? pairOf(*found) : Pair{};
     forget(contact);
     if (found == nullptr) return;
     const BodyMotion motionA = motionOf(bodyA(contact)), motionB = motionOf(bodyB(contact));
     if (!bodyA(contact).GetWorld()->IsLocked()) {
         events_.cut(pair.a, pair.b, motionA, motionB);
-    } else if (ContactEnd* const end = events_.catcher().end(pair.a, pair.b)) {
+    } else if (ContactEnd* const end = events_.catcher().end(pair)) {
         end->fraction = fractionOf(contact);
         end->motionA = motionA;
         end->motionB = motionB;
@@ -126,11 +133,13 @@ void CollisionFinder::end(const b2Contact& contact) {
 }
 
 void CollisionFinder::look(const b2Contact& contact, const b2Manifold& before) {
+    Known* const begun = std::exchange(begun_, nullptr);
     if (const unsigned fresh = fresh_.look(contact, before, events_.catcher().isStepping()); fresh != 0)
-        meet(contact, fresh);
+        meet(contact, fresh, begun != nullptr && begun->contact == &contact ? begun : nullptr);
 }
 
-void CollisionFinder::meet(const b2Contact& contact, unsigned fresh) {
+// `begun`: it began just now, and is known as it is.
+void CollisionFinder::meet(const b2Contact& contact, unsigned fresh, Known* begun) {
     if (!contact.IsEnabled() || !events_.catcher().hasSources()) return;
     b2WorldManifold manifold;
     contact.GetWorldManifold(&manifold);
@@ -139,7 +148,7 @@ void CollisionFinder::meet(const b2Contact& contact, unsigned fresh) {
         if (isIn(fresh, i))
             fastest = std::max(fastest, approach(contact, manifold.points[i], manifold.normal));
     if (!events_.catcher().isCollision(gravityScaleOf(contact), fastest)) return passOver(contact, fastest);
-    const Pair& pair = pairOf(know(contact));
+    const Pair& pair = pairOf(begun != nullptr ? *begun : know(contact));
     if (events_.catcher().collision(pair) != nullptr) return;
     if (Collision* collision = events_.catcher().strike(pair, fastest))
         describe(contact, manifold, fresh, *collision);

@@ -84,8 +84,9 @@ public:
 
 private:
     static bool hasPoint(const b2Manifold& manifold, std::uint32_t id) noexcept {
-        const auto isIt = [id](const b2ManifoldPoint& point) { return point.id.key == id; };
-        return std::any_of(manifold.points, manifold.points + manifold.pointCount, isIt);
+        for (int i = 0; i < manifold.pointCount; ++i)
+            if (manifold.points[i].id.key == id) return true;
+        return false;
     }
     /// True if both have the same points in the same order.
     static bool isSame(const b2Manifold& before, const b2Manifold& now) noexcept {
@@ -107,8 +108,9 @@ private:
         return mayHave(contact) ? indices_.find(idOf(contact)) : IntegerMap::none;
     }
     static bool has(const Entry& entry, std::uint32_t id) noexcept {
-        const auto* end = entry.ids.data() + entry.count;
-        return std::find(entry.ids.data(), end, id) != end;
+        for (int i = 0; i < entry.count; ++i) // a few: shorter than what std::find unrolls
+            if (entry.ids.data()[i] == id) return true;
+        return false;
     }
     static unsigned maskOf(const Entry& entry, const b2Manifold& manifold) noexcept {
         unsigned mask = 0;
@@ -135,7 +137,7 @@ public:
     CollisionFinder(ContactEvents& events, BodySweeps& sweeps)
         : events_(events)
         , sweeps_(sweeps) {
-        known_.resize(expectedContacts);
+        addPlaces(expectedContacts);
     }
 
     /// The slot of a fixture, FixtureTable::none if it is not registered. A fixture that reuses the address
@@ -146,8 +148,9 @@ public:
     /// without a callback.
     void forgetContacts() noexcept;
 
-    void begin(const b2Contact& contact); ///< in BeginContact
-    void end(const b2Contact& contact);   ///< in EndContact
+    /// In BeginContact. `isFollowed`: what comes next is the same contact's PreSolve, and nothing between.
+    void begin(const b2Contact& contact, bool isFollowed);
+    void end(const b2Contact& contact); ///< in EndContact
     /// After the game's own listener
     void onPreSolve(const b2Contact& contact, const b2Manifold& before) {
         if (!fresh_.areOld(contact, before)) [[unlikely]]
@@ -181,7 +184,7 @@ private:
         return &known_[static_cast<std::size_t>(at)];
     }
     [[gnu::noinline]] void look(const b2Contact& contact, const b2Manifold& before);
-    void meet(const b2Contact& contact, unsigned fresh);
+    void meet(const b2Contact& contact, unsigned fresh, Known* begun);
     [[gnu::noinline]] Known* search(const b2Contact& contact);
     [[gnu::always_inline]] const Pair& pairOf(Known& known) {
         CollisionCatcher& catcher = events_.catcher();
@@ -195,6 +198,7 @@ private:
     Known& know(const b2Contact& contact);
     Known& remember(const b2Contact& contact, Pair pair);
     void forget(const b2Contact& contact) noexcept;
+    void addPlaces(std::size_t all);
     void describe(const b2Contact& contact, const b2WorldManifold& manifold, unsigned fresh,
                   Collision& collision) const;
     [[gnu::noinline]] void solveOutOfTurn(const b2Contact& contact, const b2ContactImpulse& impulse);
@@ -218,8 +222,9 @@ private:
     ContactEvents& events_;
     BodySweeps& sweeps_;
     FreshPoints fresh_;
-    std::vector<Known> known_; // contacts that touch, then room for more
-    std::size_t knownCount_ = 0;
+    std::vector<Known> known_; // contacts that touch, and free places
+    std::vector<std::int32_t> free_;
+    Known* begun_ = nullptr;               // the one that just began, until its PreSolve
     IntegerMap knownAt_{expectedContacts}; // by contact
     std::uint32_t last_ = 0, next_ = 0;    // indices of the one that was solved last, and of its successor
 };

@@ -230,7 +230,7 @@ public:
 private:
     // If the list has the same addresses in the same order, the index is still valid, even if a body was
     // replaced by another at its address.
-    void look() const {
+    [[gnu::noinline]] void look() const {
         isCertain_ = true;
         indexed_ = isOfStep_ ? sweeps_.census() : 0;
         const std::uint64_t census = BodySweeps::censusOf(world_);
