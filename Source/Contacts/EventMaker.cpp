@@ -43,12 +43,12 @@ EventMaker::EventMaker(const FixtureTable& table, const PairSounds& pairs, const
     , sin_(static_cast<float>(portable::sin(settings.fieldRadians)))
     , isAtContact_(settings.location == ImpactLocation::contact) {}
 
-void EventMaker::addModesOf(const SmallImpact& impact) {
+void EventMaker::addModesOf(const Impact& impact) {
     counts_.muted += isMuted_ ? 1 : 0;
     if (isMuted_) return;
     for (const Mode& mode : std::span{modes_.data(), static_cast<std::size_t>(modeCount_)}) {
         setMode(mode);
-        sound(mode, impact, amplitudeOf(impact.newtonSeconds));
+        sound(mode, impact, amplitudeOf(impact));
     }
 }
 

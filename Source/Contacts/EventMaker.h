@@ -109,7 +109,9 @@ public:
     ~EventMaker() { counts_.made(made_); }
     [[gnu::noinline]] void add(const Impact& impact) {
         meet(impact.camera, impact.other);
-        addOne(impact);
+        if (isMuted_ || modeCount_ != 1) [[unlikely]]
+            return addModesOf(impact);
+        sound(modes_[0], impact, amplitudeOf(impact));
     }
     /// Whose impacts the next ones are.
     void meet(std::int32_t camera, std::int32_t other) {
@@ -133,7 +135,6 @@ public:
     }
     std::int32_t idOf(std::int32_t other) const noexcept { return table_[other].id; }
     void addAll(const GrainRuns& of);
-    void add(const SmallImpact& impact) { addOne(impact); }
 
 private:
     struct Mode {
@@ -141,18 +142,11 @@ private:
         SoundNumber sound;
         bool isPlayable; // as far as it does not depend on the impact
     };
-    template <class Of> // Impact or SmallImpact, where it lies
-    [[gnu::always_inline]] void addOne(const Of& impact) {
-        if (isMuted_ || modeCount_ != 1) [[unlikely]]
-            return addModesOf({impact.timeNs, impact.newtonSeconds, impact.point, impact.kind});
-        sound(modes_[0], impact, amplitudeOf(impact.newtonSeconds));
+    void addModesOf(const Impact& impact); ///< any number of modes, or none: it is muted
+    double amplitudeOf(const Impact& impact) const noexcept {
+        return pairGain_ * (gain_ * (perNewtonSecond_ * impact.newtonSeconds / amplitudeDivisor_));
     }
-    void addModesOf(const SmallImpact& impact); ///< any number of modes, or none: it is muted
-    double amplitudeOf(double newtonSeconds) const noexcept {
-        return pairGain_ * (gain_ * (perNewtonSecond_ * newtonSeconds / amplitudeDivisor_));
-    }
-    template <class Of>
-    [[gnu::always_inline]] void sound(const Mode& mode, const Of& impact, double amplitude) noexcept {
+    [[gnu::always_inline]] void sound(const Mode& mode, const Impact& impact, double amplitude) noexcept {
         if (isAtContact_) place(impact.point);
         event_.timeNs = impact.timeNs;
         event_.source.impulseNewtonSeconds = impact.newtonSeconds;

@@ -142,12 +142,4 @@ struct Impact {
     ContactKind kind = ContactKind::hit;
 };
 
-/// The same of an impact whose fixtures are known, as a grain's are.
-struct SmallImpact {
-    std::int64_t timeNs;
-    double newtonSeconds;
-    Vector3 point;
-    ContactKind kind;
-};
-
 } // namespace physvib

@@ -61,19 +61,57 @@ LastingContacts::LastingContacts(const FixtureTable& table)
     : table_{table} {}
 
 void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts) {
-    struct List {
-        std::vector<Impact>& impacts;
-        std::int32_t camera = FixtureTable::none, other = FixtureTable::none;
-        void meet(std::int32_t one, std::int32_t two) noexcept { camera = one, other = two; }
-        static bool prepare(std::int32_t, std::int32_t, GrainRuns&) noexcept { return false; }
-        static std::int32_t idOf(std::int32_t) noexcept { return FixtureTable::none; }
-        static void addAll(GrainRuns&) noexcept {}
-        void add(const Impact& of) { impacts.push_back(of); }
-        void add(const SmallImpact& of) {
-            add({camera, other, of.timeNs, of.newtonSeconds, of.point, of.kind});
-        }
-    } list{impacts};
-    collectFor(span, list);
+    follow(span.seconds());
+    const Taker list{
+        [](void* to, const Impact& impact) { static_cast<std::vector<Impact>*>(to)->push_back(impact); },
+        &impacts};
+    for (const Passage& passage : std::span{passages_.data(), passageCount_})
+        if (const GrainGap* gap = nullptr; passage.every > 0 && !stays(passage, span.seconds(), gap))
+            passEach(passage, span, gap, list);
+}
+
+// What pass() does, where runs do not do.
+void LastingContacts::passEach(const Passage& passage, const StepSpan& span, const GrainGap* gap,
+                               Taker taker) {
+    Told& told = *passage.told;
+    const SurfaceMotion motion = passage.motion(span.seconds());
+    const LastingPoint& point = told.point;
+    const KnownFixture& surface = table_[passage.surface];
+    const Texture& texture = surface.values.texture;
+    const Grains grains{static_cast<std::uint64_t>(surface.id), texture};
+    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
+    const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
+    struct Constants {
+        double power, perSecond, backSeconds, slipping, perSpeed, rolling;
+        Vector3 from, velocity;
+    } of; // computed at the first grain: many points pass none
+    std::size_t passed = 0;
+    told.gap = grains.along(
+        motion, passage.every, gap, [&](std::int64_t index, double t) __attribute__((always_inline)) {
+            if (passed++ == 0)
+                of = {std::sqrt(static_cast<double>(passage.every)),
+                      1.0 / motion.seconds,
+                      1.5 * motion.seconds,
+                      std::abs(point.slipMetresPerSecond),
+                      grainImpulse(texture.roughness, passage.loadNewtons, 1.0),
+                      texture.rolling,
+                      point.point,
+                      point.metresPerSecond};
+            const double speed = std::abs(motion.speedAt(t));
+            if (speed < leastMetresPerSecond || !(isFeltByA || isFeltByB)) return;
+            const double slip = std::min(speed, of.slipping);
+            const Impact grain{one,
+                               other,
+                               span.laterNs(t * of.perSecond),
+                               of.power * grains.strengthOf(index) *
+                                   (of.perSpeed * (slip + of.rolling * (speed - slip))),
+                               of.from + static_cast<float>(t - of.backSeconds) * of.velocity,
+                               slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
+            taker.add(taker.to, grain);
+            if (isFeltByA && isFeltByB) // by turns, which matters where there is no room for all
+                taker.add(taker.to, {other, one, grain.timeNs, grain.newtonSeconds, grain.point, grain.kind});
+        });
+    thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
 }
 
 namespace {

@@ -221,8 +221,7 @@ public:
 
     /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
-    /// The same for `maker.meet(camera, other)` and then `maker.add(SmallImpact)`, or `maker.add(Impact)`,
-    /// without a list between.
+    /// The same for `maker.add(impact)`, or runs of them, without a list between.
     template <class Maker>
     void collectFor(const StepSpan& span, Maker& maker) {
         follow(span.seconds());
@@ -331,11 +330,16 @@ private:
     template <class Maker>
     [[gnu::noinline]] void begin(const Passage& passage, std::int32_t camera, std::int32_t other, Runs& runs,
                                  Maker& maker);
+    /// True if the passage ends between the grains where it begins; else that gap, or null.
+    [[gnu::always_inline]] bool stays(const Passage& passage, double seconds, const GrainGap*& gap) noexcept;
     template <class Maker>
     [[gnu::always_inline]] void pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker);
-    template <class Maker>
+    struct Taker {
+        void (*add)(void* to, const Impact& impact);
+        void* to;
+    };
     [[gnu::noinline]] void passEach(const Passage& passage, const StepSpan& span, const GrainGap* gap,
-                                    Runs& runs, Maker& maker);
+                                    Taker taker);
 
     const FixtureTable& table_;
     std::array<FacePoint, 32> faces_; // reported, not yet computed; so many stay in the first-level cache
@@ -372,27 +376,37 @@ void LastingContacts::begin(const Passage& passage, std::int32_t camera, std::in
     runs.rolling = texture.rolling;
 }
 
-template <class Maker>
-inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker) {
+inline bool LastingContacts::stays(const Passage& passage, double seconds, const GrainGap*& gap) noexcept {
     Told& told = *passage.told;
     told.inGapOf = passage.surface;
     told.revision = table_.revision();
     told.every = passage.every;
-    const GrainGap* const gap = gapBefore(passage);
-    if (gap != nullptr && passage.grains < 0.75 && gap->holds(passage.motion(runs.seconds))) { // most slow
-                                                                                               // points
-        told.gap = *gap;
-        return;
-    }
+    gap = gapBefore(passage);
+    if (gap == nullptr || passage.grains >= 0.75 || !gap->holds(passage.motion(seconds))) return false;
+    told.gap = *gap; // as of most slow points
+    return true;
+}
+
+template <class Maker>
+inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, Runs& runs, Maker& maker) {
+    const GrainGap* gap = nullptr;
+    if (stays(passage, runs.seconds, gap)) return;
+    const auto passOneByOne = [&] {
+        flush(runs, maker);
+        runs.surface = FixtureTable::none; // the maker may come to have another
+        passEach(passage, span, gap,
+                 {[](void* to, const Impact& impact) { static_cast<Maker*>(to)->add(impact); }, &maker});
+    };
+    Told& told = *passage.told;
     const LastingPoint& point = told.point;
     const bool isFeltByA = table_.isCamera(point.a);
     const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
     if (isFeltByA == table_.isCamera(point.b) || passage.fastest < 0.0) [[unlikely]]
-        return passEach(passage, span, gap, runs, maker);
+        return passOneByOne();
     if (runs.surface != passage.surface || runs.camera != one) [[unlikely]]
         begin(passage, one, other, runs, maker);
     if (!runs.isUsed) [[unlikely]]
-        return passEach(passage, span, gap, runs, maker);
+        return passOneByOne();
     const double end = passage.endMetres;
     const bool isUp = end > passage.startMetres;
     const double sign = isUp ? 1.0 : -1.0;
@@ -438,52 +452,6 @@ inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, 
                         static_cast<std::uint64_t>(passage.every - 1);
     }
     told.gap = {isUp ? behind : ahead, isUp ? ahead : behind, index, isUp};
-}
-
-/// The same where runs do not do.
-template <class Maker>
-void LastingContacts::passEach(const Passage& passage, const StepSpan& span, const GrainGap* gap, Runs& runs,
-                               Maker& maker) {
-    flush(runs, maker);
-    runs.surface = FixtureTable::none; // the maker may come to have another
-    Told& told = *passage.told;
-    const SurfaceMotion motion = passage.motion(span.seconds());
-    const LastingPoint& point = told.point;
-    const KnownFixture& surface = table_[passage.surface];
-    const Texture& texture = surface.values.texture;
-    const Grains grains{static_cast<std::uint64_t>(surface.id), texture};
-    const bool isFeltByA = table_.isCamera(point.a), isFeltByB = table_.isCamera(point.b);
-    const std::int32_t one = isFeltByA ? point.a : point.b, other = isFeltByA ? point.b : point.a;
-    struct Constants {
-        double power, perSecond, backSeconds, slipping, perSpeed, rolling;
-        Vector3 from, velocity;
-    } of; // computed at the first grain: many points pass none
-    std::size_t passed = 0;
-    told.gap = grains.along(
-        motion, passage.every, gap, [&](std::int64_t index, double t) __attribute__((always_inline)) {
-            if (passed++ == 0)
-                of = {std::sqrt(static_cast<double>(passage.every)),
-                      1.0 / motion.seconds,
-                      1.5 * motion.seconds,
-                      std::abs(point.slipMetresPerSecond),
-                      grainImpulse(texture.roughness, passage.loadNewtons, 1.0),
-                      texture.rolling,
-                      point.point,
-                      point.metresPerSecond};
-            const double speed = std::abs(motion.speedAt(t));
-            if (speed < leastMetresPerSecond || !(isFeltByA || isFeltByB)) return;
-            const double slip = std::min(speed, of.slipping);
-            const SmallImpact grain{span.laterNs(t * of.perSecond),
-                                    of.power * grains.strengthOf(index) *
-                                        (of.perSpeed * (slip + of.rolling * (speed - slip))),
-                                    of.from + static_cast<float>(t - of.backSeconds) * of.velocity,
-                                    slip > 0.5 * speed ? ContactKind::slide : ContactKind::roll};
-            maker.meet(one, other);
-            maker.add(grain);
-            if (isFeltByA && isFeltByB) // by turns, which matters where there is no room for all
-                maker.add({other, one, grain.timeNs, grain.newtonSeconds, grain.point, grain.kind});
-        });
-    thinned_ += passed * static_cast<std::uint64_t>(passage.every - 1);
 }
 
 } // namespace physvib
