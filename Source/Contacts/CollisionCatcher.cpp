@@ -176,8 +176,8 @@ ChainLoads::Place& ChainLoads::add(const TouchingPairs::Name& pair, std::int32_t
 
 inline std::array<float, 4> ChainLoads::Contact::squares() const noexcept {
     using Four = float __attribute__((vector_size(sizeof x)));
-    const auto of = [](const std::array<float, 4>& axis) { return std::bit_cast<Four>(axis); };
-    return std::bit_cast<std::array<float, 4>>(of(x) * of(x) + of(y) * of(y) + of(z) * of(z));
+    const auto four = [](const std::array<float, 4>& axis) { return std::bit_cast<Four>(axis); };
+    return std::bit_cast<std::array<float, 4>>(four(x) * four(x) + four(y) * four(y) + four(z) * four(z));
 }
 
 void ChainLoads::settle() {
