@@ -6,16 +6,10 @@
 #include "Io/Provenance.h"
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NameList.h"
-#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialLog.h"
-#include "Lab/Report/AnalysisScript.h"
-#include "Lab/Report/BidsDataset.h"
-#include "Lab/Report/ProtocolWords.h"
-#include "Lab/Report/ReportBuilder.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyTasks.h"
-#include <algorithm>
 #include <set>
 
 namespace physvib {
