@@ -2,16 +2,11 @@
 // Reads an .ahap file entry by entry with Apple's rules: missing values have defaults, unknown fields are
 // ignored. Its events and the curves that control all of them become waves and transients: each event with
 // the curves that apply during it, sampled where they bend.
-#include "Formats/AhapFile.h"
-#include "Formats/Clip.h"
-#include "Formats/ClipLimits.h"
-#include "Formats/LeftOut.h"
-#include "Formats/TimeOrder.h"
+#include "Formats/ClipFile.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace physvib {
 namespace {

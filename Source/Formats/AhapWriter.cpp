@@ -4,16 +4,13 @@
 // level, and the curves begin at 1 and 0: on a phone a curve affects every event of its pattern, and one at
 // 0.1 would reduce a transient beside it to a tenth. Pieces end at silences between transients; after a
 // transient wherever the envelope rises or halves.
-#include "Formats/AhapFile.h"
-#include "Formats/ClipEnvelope.h"
-#include "Formats/ClipLimits.h"
+#include "Formats/ClipFile.h"
+#include "Formats/EnvelopeFile.h"
 #include "Io/Json/JsonText.h"
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 #include <span>
-#include <vector>
 
 namespace physvib {
 namespace {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Validity checks that apply to clips of every file format.
 #include "Formats/Clip.h"
-#include "Formats/ClipLimits.h"
-#include "Formats/TimeOrder.h"
 #include "Io/Text/NumberText.h"
 
 namespace physvib {

@@ -6,10 +6,30 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
+
+// Limits of imported haptic files, each with the reason for its value.
+namespace physvib::limits {
+
+constexpr std::size_t maxClipFileBytes = 24'000'000; // parsed JSON needs six times its bytes: 150 MB
+constexpr std::size_t maxClipPoints = 500'000; // of all curves: 10,000 impacts on four actuators, of a dozen
+                                               // points each
+constexpr std::size_t maxClipStrikes = maxClipPoints / 2; // each has at least two points
+constexpr std::size_t maxClipBands = 4096;      // of all channels: each may have a sounding wave at any time
+constexpr double maxClipSeconds = 600.0;        // as for recordings, because a clip becomes samples
+constexpr double maxClipSounding = 7200.0;      // seconds of all waves: one second of computing per thousand
+constexpr double maxClipFrequencyHz = 10'000.0; // in MPEG's schema
+constexpr double maxClipAmplitude = 1000.0;     // a channel's gain times an amplitude within -1 to 1
+
+constexpr double maxAhapEventSeconds = 30.0; // for Apple's continuous events
+
+} // namespace physvib::limits
 
 namespace physvib {
 
@@ -139,5 +159,29 @@ struct FrequencyScale {
     }
     double share(double hz) const noexcept { return std::clamp((hz - lowHz) / (highHz - lowHz), 0.0, 1.0); }
 };
+
+// Stable sort by time for items of any type. One instance sorts all types, to keep the web page's code small.
+
+/// Indices into `times`, earliest first. Any thread.
+inline std::vector<std::size_t> timeOrder(std::span<const double> times) {
+    std::vector<std::size_t> order(times.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto isEarlier = [&](std::size_t a, std::size_t b) { return times[a] < times[b]; };
+    std::stable_sort(order.begin(), order.end(), isEarlier);
+    return order;
+}
+
+/// `timeOf`: a member or function that gives a finite number. Any thread.
+template <class T, class TimeOf>
+void sortByTime(std::vector<T>& items, TimeOf timeOf) {
+    std::vector<double> times;
+    times.reserve(items.size());
+    for (const T& item : items) times.push_back(static_cast<double>(std::invoke(timeOf, item)));
+    if (std::is_sorted(times.begin(), times.end())) return;
+    std::vector<T> sorted;
+    sorted.reserve(items.size());
+    for (const std::size_t i : timeOrder(times)) sorted.push_back(std::move(items[i]));
+    items = std::move(sorted);
+}
 
 } // namespace physvib

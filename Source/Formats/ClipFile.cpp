@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Selects the reader or writer of a format, and reports what a format cannot store.
 #include "Formats/ClipFile.h"
-#include "Formats/AhapFile.h"
-#include "Formats/ClipLimits.h"
 #include "Formats/EnvelopeFile.h"
-#include "Formats/HjifFile.h"
-#include "Formats/MetaHapticFile.h"
 #include "Io/Disk/ReadFile.h"
-#include "Io/Text/NumberText.h"
-#include <set>
 
 namespace physvib {
 namespace {

@@ -3,9 +3,12 @@
 #pragma once
 #include "Formats/Clip.h"
 #include "Io/Result.h"
+#include "Io/Text/NumberText.h"
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,5 +61,79 @@ std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale&
 
 /// What the format cannot store of `clip`, one line each, for the user. Any thread.
 std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
+
+// Reader and writer of .hjif, MPEG-I haptics as JSON (ISO/IEC 23090-31).
+//
+// Stores: channels with labels, places and actuators, bands of waves with phases, frequencies up to 10 kHz,
+// any length. Does not store: places finer than 127 points across the field; panning laws and events as such.
+// Reads from other writers: vibrotactile perceptions with vectorial, transient and curve bands; not wavelets
+// or composite effects.
+
+/// The clip that `text` describes; or, for the first error, one line `name: perceptions[0].channels[1]...`.
+/// Optional fields may be missing, unknown ones are ignored. Any thread.
+Result<Clip> readHjif(std::string_view text, std::string_view name);
+
+/// `clip` (without a clipFault) as JSON with 48,000 ticks per second. Equal clips give equal text, because
+/// the date is constant. Any thread.
+std::string hjifText(const Clip& clip);
+
+/// What .hjif cannot store of `clip`, of these frequencies, one line each. Any thread.
+std::vector<std::string> hjifLosses(const Clip& clip, const std::set<double>& frequenciesHz);
+
+// Reader and writer of Meta's .haptic format, which FMOD and Wwise also read: one envelope of amplitude, one
+// of frequency, and emphasis points.
+//
+// Stores: one channel, amplitudes and frequencies from 0 to 1, transients as emphasis, any length. Does not
+// store: several channels, places, several frequencies at once, phases, levels beyond full scale, Hz.
+
+/// One channel: the envelope as a wave, emphasis as transients; 0.5 of the scale without frequencies and
+/// before their first. A one-line error if it breaks one of Meta's rules: values from 0 to 1, times in order,
+/// at least two points of amplitude, emphasis at least as strong as the envelope. Any thread.
+Result<Clip> readMetaHaptic(std::string_view text, std::string_view name, const FrequencyScale& scale = {});
+
+/// Number of transients that are weaker than the envelope beside them; the format requires them to be raised
+/// to it. Any thread.
+std::size_t metaHapticRaised(const ClipChannel& channel);
+
+/// `channel` as such a file. Any thread.
+std::string metaHapticText(const ClipChannel& channel, std::string_view title,
+                           const FrequencyScale& scale = {});
+
+// Reader and writer of Apple's .ahap format: continuous and transient events, and curves that control all of
+// them.
+//
+// Stores: one channel, intensities and sharpnesses from 0 to 1, transients; consecutive continuous events of
+// at most 30 s. Does not store: several channels, places, several frequencies at once, phases, levels beyond
+// full scale, Hz. Ignored with a note when reading: sound, attack, decay, release, and unknown fields.
+
+/// One channel. Amplitude is the intensity squared, sharpness a share of the scale. Values out of range are
+/// clamped and missing ones have defaults, as in Apple's definition (Docs/events.md). Any thread.
+Result<Clip> readAhap(std::string_view text, std::string_view name, const FrequencyScale& scale = {});
+
+/// `channel` as such a file. No curve changes a transient (AhapWriter.cpp) or has over 16 points. Any thread.
+std::string ahapText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale = {});
+
+// Counts the contents of an imported file that are not played, and reports them as one line.
+
+/// One thread at a time.
+class LeftOut {
+public:
+    /// Counts one more of that kind; its name may come from the file.
+    void add(std::string_view what) {
+        std::string name = printable(what);
+        ++counts_[counts_.size() < mostKinds || counts_.contains(name) ? std::move(name) : "others"];
+    }
+    /// "left out: AttackTime (3), Sustained (1)"; empty: none.
+    std::string line() const {
+        std::string text;
+        for (const auto& [name, count] : counts_)
+            text += (text.empty() ? "left out: " : ", ") + name + " (" + std::to_string(count) + ")";
+        return text;
+    }
+
+private:
+    static constexpr std::size_t mostKinds = 12; // to keep the report short
+    std::map<std::string, int> counts_;
+};
 
 } // namespace physvib

@@ -1,12 +1,161 @@
 // SPDX-License-Identifier: MIT
 // Lines through the envelope at whole milliseconds, each as long as it stays within a cone of slopes.
 #include "Formats/EnvelopeFile.h"
-#include "Formats/ClipEnvelope.h"
 #include "Io/Json/JsonText.h"
 #include <algorithm>
-#include <cmath>
 
 namespace physvib {
+
+// Computes a channel's envelope: the sum of all waves just before and just after each point.
+
+namespace {
+
+/// Closer times are equal: a wave that begins where another ends follows it. Files have whole microseconds.
+constexpr double sameSeconds = 5e-7;
+
+/// The sounding wave of a band, for increasing times.
+class BandWalk {
+public:
+    explicit BandWalk(const ClipBand& band)
+        : band_{band} {}
+
+    /// The wave just before `seconds`, or from then on; null if none.
+    const ClipWave* at(double seconds, bool isBefore) {
+        const double after = seconds + sameSeconds;
+        while (next_ < band_.waves.size() && band_.waves[next_].endSeconds() < seconds) ++next_;
+        for (std::size_t i = next_; i < band_.waves.size() && band_.waves[i].startSeconds <= after; ++i) {
+            const ClipWave& wave = band_.waves[i];
+            if (isBefore ? wave.startSeconds < seconds && seconds <= wave.endSeconds()
+                         : after < wave.endSeconds())
+                return &wave;
+        }
+        return nullptr;
+    }
+
+private:
+    const ClipBand& band_;
+    std::size_t next_ = 0;
+};
+
+std::vector<double> momentsOf(const ClipChannel& channel) {
+    std::vector<double> moments;
+    for (const ClipBand& band : channel.bands)
+        for (const ClipWave& wave : band.waves) {
+            moments.push_back(wave.startSeconds);
+            for (const auto* curve : {&wave.amplitude, &wave.frequencyHz})
+                for (const ClipPoint& p : *curve)
+                    if (p.seconds <= wave.seconds()) moments.push_back(wave.startSeconds + p.seconds);
+        }
+    std::ranges::sort(moments);
+    moments.erase(
+        std::unique(moments.begin(), moments.end(), [](double a, double b) { return b - a < sameSeconds; }),
+        moments.end());
+    return moments;
+}
+
+/// At a step of the curve: its value before or after the step.
+double sideOf(std::span<const ClipPoint> curve, double seconds, bool isBefore) {
+    const auto first = std::ranges::lower_bound(curve, seconds - sameMomentSeconds, {}, &ClipPoint::seconds);
+    const auto end = std::ranges::upper_bound(curve, seconds + sameMomentSeconds, {}, &ClipPoint::seconds);
+    return first == end ? valueAt(curve, seconds) : isBefore ? first->value : (end - 1)->value;
+}
+
+EnvelopePoint sumAt(std::vector<BandWalk>& bands, double seconds, bool isBefore, double heldHz) {
+    double squares = 0.0, weighted = 0.0;
+    for (BandWalk& band : bands)
+        if (const ClipWave* wave = band.at(seconds, isBefore)) {
+            const double a = sideOf(wave->amplitude, seconds - wave->startSeconds, isBefore);
+            squares += a * a;
+            weighted += a * a * sideOf(wave->frequencyHz, seconds - wave->startSeconds, isBefore);
+        }
+    return {seconds, std::sqrt(squares), squares > 0.0 ? weighted / squares : heldHz};
+}
+
+bool isJump(const EnvelopePoint& a, const EnvelopePoint& b) {
+    return std::abs(a.amplitude - b.amplitude) > 1e-6 || std::abs(a.frequencyHz - b.frequencyHz) > 1e-3;
+}
+
+} // namespace
+
+std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSeconds) {
+    std::vector<BandWalk> bands(channel.bands.begin(), channel.bands.end());
+    std::vector<EnvelopePoint> points;
+    for (const double moment : momentsOf(channel)) {
+        const double held = points.empty() ? 0.0 : points.back().frequencyHz;
+        EnvelopePoint before = sumAt(bands, moment, true, held);
+        EnvelopePoint after = sumAt(bands, moment, false, before.frequencyHz);
+        if (before.amplitude == 0.0)
+            before.frequencyHz = after.frequencyHz; // so that the frequency does not glide during silence
+        const double last = points.empty() ? 0.0 : points.back().seconds;
+        after.seconds = std::max(moment, last); // a point within the rise of a wave that begins at 0 s
+        if (!isJump(before, after)) {
+            points.push_back(after);
+            continue;
+        }
+        before.seconds = std::max(moment - riseSeconds, 0.5 * (last + moment));
+        if (after.seconds < riseSeconds && points.empty())
+            after.seconds = riseSeconds, before.seconds = 0.0; // a wave that begins at 0 s rises from there
+        if (before.seconds > last || points.empty()) points.push_back(before);
+        points.push_back(after);
+    }
+    if (!points.empty() && points.back().amplitude > 0.0)
+        points.push_back({points.back().seconds + riseSeconds, 0.0, points.back().frequencyHz});
+    return points;
+}
+
+EnvelopePoint pointAt(std::span<const EnvelopePoint> envelope, double seconds) {
+    const auto next = std::ranges::upper_bound(envelope, seconds, {}, &EnvelopePoint::seconds);
+    if (envelope.empty()) return {seconds, 0.0, 0.0};
+    if (next == envelope.begin()) return {seconds, 0.0, next->frequencyHz};
+    const EnvelopePoint& last = *(next - 1);
+    if (next == envelope.end())
+        return {seconds, seconds > last.seconds ? 0.0 : last.amplitude, last.frequencyHz};
+    EnvelopePoint point = between(last, *next, (seconds - last.seconds) / (next->seconds - last.seconds));
+    point.seconds = seconds;
+    return point;
+}
+
+std::vector<EnvelopePoint> partOf(std::span<const EnvelopePoint> envelope, double fromSeconds,
+                                  double toSeconds) {
+    const auto first = std::ranges::upper_bound(envelope, fromSeconds, {}, &EnvelopePoint::seconds);
+    const auto end = std::ranges::lower_bound(envelope, toSeconds, {}, &EnvelopePoint::seconds);
+    std::vector<EnvelopePoint> part{pointAt(envelope, fromSeconds)};
+    if (first < end) part.insert(part.end(), first, end);
+    part.push_back(pointAt(envelope, toSeconds));
+    return part;
+}
+
+std::vector<ClipPoint> thinned(const std::vector<ClipPoint>& curve, double tolerance) {
+    constexpr std::size_t longestStretch = 1024; // bounds the cost, quadratic in its length
+    if (curve.size() < 3) return curve;
+    std::vector<bool> isKept(curve.size());
+    std::vector<std::pair<std::size_t, std::size_t>> stretches;
+    for (std::size_t from = 0, to; from + 1 < curve.size(); from = to) {
+        to = std::min(from + longestStretch, curve.size() - 1);
+        stretches.push_back({from, to});
+        isKept[from] = isKept[to] = true;
+    }
+    while (!stretches.empty()) {
+        const auto [from, to] = stretches.back();
+        stretches.pop_back();
+        const ClipPoint ends[] = {curve[from], curve[to]};
+        std::size_t farthest = from;
+        double most = tolerance;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            const double distance = std::abs(curve[i].value - valueAt(ends, curve[i].seconds));
+            if (distance > most) most = distance, farthest = i;
+        }
+        if (farthest == from) continue;
+        isKept[farthest] = true;
+        stretches.push_back({from, farthest});
+        stretches.push_back({farthest, to});
+    }
+    std::vector<ClipPoint> kept;
+    for (std::size_t i = 0; i < curve.size(); ++i)
+        if (isKept[i]) kept.push_back(curve[i]);
+    return kept;
+}
+
 namespace {
 
 constexpr std::size_t maxPoints = 16; // that every phone takes

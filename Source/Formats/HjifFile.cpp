@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Reads .hjif field by field after MPEG's schema (perceptions, channels, bands, effects, keyframes), and
 // writes it: one line per effect, everything in a fixed order.
-#include "Formats/HjifFile.h"
-#include "Formats/ClipLimits.h"
-#include "Formats/LeftOut.h"
-#include "Formats/TimeOrder.h"
+#include "Formats/ClipFile.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
-#include "Io/Text/NumberText.h"
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <numbers>
-#include <optional>
 
 namespace physvib {
 namespace {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Implementation of the .haptic reader and writer: version, metadata, signals.continuous.envelopes.
-#include "Formats/MetaHapticFile.h"
-#include "Formats/ClipEnvelope.h"
-#include "Formats/ClipLimits.h"
-#include "Formats/TimeOrder.h"
+#include "Formats/ClipFile.h"
+#include "Formats/EnvelopeFile.h"
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"
 #include <algorithm>

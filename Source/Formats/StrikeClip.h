@@ -5,6 +5,7 @@
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
 #include "Formats/Clip.h"
+#include "Io/Wav/SampledSound.h"
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -34,5 +35,11 @@ Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSetti
 /// at `endTick`. Any thread.
 std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::int64_t endTick, double error,
                                   int ticksPerSecond);
+
+// Renders a clip to samples.
+
+/// Every channel of `clip` (which has no clipFault) at that sample rate, from 0 s to its end. Waves at or
+/// above half the rate are omitted. 1 is full scale. Any thread.
+SampledSound clipSound(const Clip& clip, int sampleRateHz);
 
 } // namespace physvib

@@ -2,10 +2,6 @@
 // Finds the strongest impact by comparing levels of short frames with the quietest part of the recording.
 #include "Measure/HitExcerpt.h"
 #include "Core/Limits.h"
-#include "Io/Text/NumberText.h"
-#include <algorithm>
-#include <cmath>
-#include <span>
 
 namespace physvib {
 double energyOf(std::span<const double> samples) {

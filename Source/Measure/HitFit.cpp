@@ -3,18 +3,13 @@
 // model of Eq. 5.1.
 #include "Measure/HitFit.h"
 #include "Measure/HitExcerpt.h"
-#include "Measure/LeastSquares.h"
-#include "Measure/PartialFit.h"
 #include "Measure/Spectrum.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
-#include <cstddef>
 #include <numbers>
-#include <span>
 #include <unsupported/Eigen/Polynomials>
-#include <vector>
 
 namespace physvib {
 
@@ -224,12 +219,6 @@ void HitFit::restart(std::size_t onset, const std::vector<Partial>& partials) {
 
 // Least-squares fit of Eq. 5.1. Parameters in the order of the equations: the onset, then omega, tau and
 // amplitude of each partial.
-
-namespace {
-
-constexpr std::size_t numbersEach = 3;
-
-} // namespace
 
 std::size_t StruckFit::firstOf(const State& state) const {
     return std::min(samples_.size(),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fits the partials of one impact together with its onset, which is not known exactly.
 #pragma once
-#include "Measure/LeastSquares.h"
 #include "Measure/PartialFit.h"
 #include <cstddef>
 #include <optional>
@@ -33,6 +32,7 @@ public:
     PartialError errorOf(std::size_t partial) const;
 
 private:
+    static constexpr std::size_t numbersEach = 3; ///< parameters of a partial
     struct State {
         double onset = 0.0;
         std::vector<StruckPartial> partials;

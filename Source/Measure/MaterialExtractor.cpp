@@ -115,11 +115,6 @@ Result<ContactSound> byTwoPeaks(const std::vector<float>& samples, const HitExce
 
 } // namespace
 
-bool ContactSound::isConfident() const noexcept {
-    return frequencyErrorHz > 0.0 && frequencyErrorHz < 0.005 * frequencyHz &&
-           decayErrorPerSecond < 0.05 * decayPerSecond && residualShare < 0.5;
-}
-
 Result<ContactSound> extractMaterial(const std::vector<float>& samples, double rateHz, ExtractionBand band,
                                      MaterialRule rule) {
     if (auto fault = faultOf(samples, rateHz, band); !fault.empty()) return Failure{std::move(fault)};

@@ -32,7 +32,11 @@ struct ContactSound {
     double ownShare = 0.0;      ///< share of the impact's energy that this partial explains
     int partials = 0;           ///< number found, in the band or not
     double beginSeconds = 0.0, lengthSeconds = 0.0; ///< the excerpt
-    bool isConfident() const noexcept; ///< errors within 0.5 % and 5 %, and most of the impact is explained
+    /// errors within 0.5 % and 5 %, and most of the impact is explained
+    bool isConfident() const noexcept {
+        return frequencyErrorHz > 0.0 && frequencyErrorHz < 0.005 * frequencyHz &&
+               decayErrorPerSecond < 0.05 * decayPerSecond && residualShare < 0.5;
+    }
 };
 
 /// Extracts from samples in [-1, 1]. Otherwise a one-line error without a file's name: "expected a hit, found

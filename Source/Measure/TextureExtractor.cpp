@@ -1,14 +1,277 @@
 // SPDX-License-Identifier: MIT
 // Extraction of a texture: checks the recording, counts grains that stand out, else looks for repetition.
 #include "Measure/TextureExtractor.h"
-#include "Measure/GrainTrain.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/Spectrum.h"
+#include <Eigen/Dense>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <span>
 #include <string>
 
 namespace physvib {
 namespace {
+
+// Removes the material's resonance from the recording of a scrape, so that one pulse per grain remains.
+// Smoothing by a cos^4 kernel and its derivatives; the resonance by weighted least squares with past values
+// as instrumental variables.
+
+/// A grain that excites A exp(-tau t) sin(omega t) gives a pulse of height A, with the shape of the smoothing
+/// kernel.
+struct ScrapePulses {
+    double frequencyHz = 0.0, decayPerSecond = 0.0; ///< of the resonance
+    std::vector<double> heights;                    ///< positive at grains, 0 between them
+    double heightsPerSecond = 0.0;
+    double skewness = 0.0; ///< of the heights: that of noise is 0
+};
+
+constexpr std::size_t fewestSamples = 4; // half width below which derivatives are inaccurate
+
+/// cos^4 kernel of area 1 over 2 reach + 1 samples, and its first two derivatives in time.
+struct Smoothing {
+    Smoothing(std::size_t samples, double rateHz)
+        : reach{samples} {
+        const auto steps = static_cast<double>(reach + 1);
+        const double turn = 0.5 * std::numbers::pi / steps, perSecond = turn * rateHz;
+        double area = 0.0;
+        for (std::size_t i = 0; i <= 2 * reach; ++i) {
+            const double phase = turn * (static_cast<double>(i) - static_cast<double>(reach)),
+                         c = std::cos(phase), s = std::sin(phase);
+            value.push_back(c * c * c * c);
+            slope.push_back(-4.0 * perSecond * c * c * c * s);
+            bend.push_back(perSecond * perSecond * (12.0 * c * c * s * s - 4.0 * c * c * c * c));
+            area += value.back();
+        }
+        for (auto* kernel : {&value, &slope, &bend})
+            for (double& x : *kernel) x /= area;
+    }
+    std::size_t reach;
+    std::vector<double> value, slope, bend;
+};
+
+/// `kernel` * x at every `step`-th sample, where the kernel fits completely.
+std::vector<double> convolved(std::span<const double> x, const std::vector<double>& kernel,
+                              std::size_t step) {
+    std::vector<double> all;
+    for (std::size_t n = kernel.size(); n <= x.size(); n += step) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < kernel.size(); ++k) sum += kernel[k] * x[n - 1 - k];
+        all.push_back(sum);
+    }
+    return all;
+}
+
+Eigen::Map<const Eigen::ArrayXd> mapped(const std::vector<double>& x) {
+    return {x.data(), static_cast<Eigen::Index>(x.size())};
+}
+
+/// Finds c = {2 tau, omega^2 + tau^2, minus the mean of the excitation} such that bend + c[0] slope + c[1]
+/// value + c[2] is small most of the time. Noise in the regressors would make the decay look faster; values
+/// `lag` earlier have independent noise and do not depend on later impacts.
+std::optional<Eigen::Vector3d> ringing(const std::vector<double>& value, const std::vector<double>& slope,
+                                       const std::vector<double>& bend, Eigen::Index lag) {
+    constexpr int rounds = 20;
+    constexpr double least = 0.02; // of the rms: limits the weight of small residuals
+    const Eigen::Index rows = static_cast<Eigen::Index>(value.size()) - lag;
+    if (rows < 100) return std::nullopt;
+    Eigen::MatrixX3d all(rows + lag, 3);
+    all << mapped(slope), mapped(value), Eigen::ArrayXd::Ones(rows + lag);
+    Eigen::RowVector3d scale = (all.colwise().squaredNorm() / static_cast<double>(rows)).cwiseSqrt();
+    if (!(scale.minCoeff() > 0.0)) return std::nullopt;
+    all.array().rowwise() /= scale.array();
+    const Eigen::VectorXd target = -mapped(bend).tail(rows);
+    Eigen::ArrayXd weights = Eigen::ArrayXd::Ones(rows);
+    Eigen::Vector3d found;
+    for (int round = 0; round < rounds; ++round) {
+        const Eigen::Matrix3Xd past = (all.topRows(rows).array().colwise() * weights).matrix().transpose();
+        found = (past * all.bottomRows(rows)).fullPivLu().solve(past * target);
+        const Eigen::ArrayXd left = (target - all.bottomRows(rows) * found).array().abs();
+        weights = 1.0 / left.max(least * std::sqrt(left.square().mean()));
+        if (!weights.allFinite()) return std::nullopt;
+    }
+    return (found.array() / scale.transpose().array()).matrix();
+}
+
+double skewnessOf(const std::vector<double>& x) {
+    const auto from = mapped(x) - mapped(x).mean();
+    return from.cube().mean() / std::pow(from.square().mean(), 1.5);
+}
+
+/// Smooths `samples` over halfWidthSeconds to both sides. x'' + 2 tau x' + (omega^2 + tau^2) x is the
+/// excitation by grains alone; tau and omega are chosen so that it is 0 most of the time. None if no decaying
+/// sinusoid fits, or if the width is only a few samples. Message thread (M) only.
+std::optional<ScrapePulses> scrapePulses(std::span<const double> samples, double rateHz,
+                                         double halfWidthSeconds) {
+    const auto reach = static_cast<std::size_t>(std::lround(halfWidthSeconds * rateHz));
+    if (reach < fewestSamples || samples.size() < 100 * reach) return std::nullopt;
+    const Smoothing smoothing{reach, rateHz};
+    const std::size_t step = std::max<std::size_t>(1, reach / 8);
+    const auto value = convolved(samples, smoothing.value, step),
+               slope = convolved(samples, smoothing.slope, step),
+               bend = convolved(samples, smoothing.bend, step);
+    const auto found = ringing(value, slope, bend, static_cast<Eigen::Index>(2 * reach / step + 2));
+    if (!found) return std::nullopt;
+    const double tau = 0.5 * (*found)[0], omega2 = (*found)[1] - tau * tau;
+    if (!(tau > 0.0) || !(omega2 > tau * tau)) return std::nullopt;
+    ScrapePulses pulses;
+    pulses.frequencyHz = std::sqrt(omega2) / (2.0 * std::numbers::pi);
+    pulses.decayPerSecond = tau;
+    pulses.heightsPerSecond = rateHz / static_cast<double>(step);
+    const double highest = smoothing.value[reach] * rateHz * std::sqrt(omega2);
+    for (std::size_t n = 0; n < value.size(); ++n)
+        pulses.heights.push_back((bend[n] + (*found)[0] * slope[n] + (*found)[1] * value[n] + (*found)[2]) /
+                                 highest);
+    pulses.skewness = skewnessOf(pulses.heights);
+    if (pulses.skewness < 0.0) { // recorded with inverted polarity
+        for (double& height : pulses.heights) height = -height;
+        pulses.skewness = -pulses.skewness;
+    }
+    return pulses;
+}
+
+/// x', smoothed over halfWidthSeconds to both sides: one value for each sample where the kernel fits. M only.
+std::vector<double> smoothSlope(std::span<const double> samples, double rateHz, double halfWidthSeconds) {
+    const auto reach = static_cast<std::size_t>(std::lround(halfWidthSeconds * rateHz));
+    return convolved(samples, Smoothing{std::max(reach, fewestSamples), rateHz}.slope, 1);
+}
+
+// Finds the pulses of grains above the noise, and corrects their number for those that were missed.
+
+/// Estimates from the pulses of a scrape.
+struct GrainTrain {
+    double perSecond = 0.0;
+    double strength = 0.0;   ///< mean; 1 = full scale
+    double unevenness = 0.0; ///< standard deviation of the spacings, in spacings: ridges 0, at random 0.37
+    double lostShare = 0.0;  ///< estimated share of grains that were missed, too weak for the noise or too
+                             ///< close to another. perSecond and strength are corrected for them
+    std::size_t counted = 0;
+    double frequencyHz = 0.0, decayPerSecond = 0.0; ///< of the material's vibration
+
+    /// Any thread. A value in between is neither, and unreliable.
+    bool isEven() const noexcept { return unevenness <= 0.15; }
+    bool isRandom() const noexcept { return unevenness >= 0.3; }
+};
+
+constexpr double narrowestSeconds = 0.000125, widestSeconds = 0.012;
+constexpr double leastSkewness = 1.2;
+constexpr std::size_t fewestGrains = 20;
+constexpr double mostLost = 0.3;
+constexpr double mostSpread = 0.8; // coefficient of variation of heights: random grains have 0.46, ringing of
+                                   // another partial above 1
+
+/// RMS of the negative values: noise is symmetric, pulses are positive.
+double noiseOf(std::span<const double> x) {
+    double sum = 0.0, count = 0.0;
+    for (const double height : x)
+        if (height < 0.0) sum += height * height, count += 1.0;
+    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+struct Standing {
+    std::vector<Peak> peaks; ///< peaks above the threshold
+    double threshold, mean;  ///< mean: estimated height of all grains, including those below the threshold
+};
+
+/// For uniformly distributed heights the mean above the threshold is (mean x most + threshold) / 2.
+Standing standingOut(const std::vector<Peak>& peaks, double noise) {
+    constexpr double most = GrainChance::leastStrength + GrainChance::strengthRange, sure = 5.0,
+                     leastShare = 0.12;
+    Standing out{{}, sure * noise, 0.0};
+    for (int round = 0; round < 10; ++round) {
+        out.peaks.clear();
+        double sum = 0.0;
+        for (const Peak& peak : peaks)
+            if (peak.height > out.threshold) sum += peak.height, out.peaks.push_back(peak);
+        if (out.peaks.size() < fewestGrains) break;
+        const double seen = sum / static_cast<double>(out.peaks.size());
+        out.mean = out.threshold > GrainChance::leastStrength * seen
+                       ? std::max(0.3 * seen, (2.0 * seen - out.threshold) / most)
+                       : seen;
+        out.threshold = std::max(sure * noise, leastShare * out.mean);
+    }
+    return out;
+}
+
+double spreadOf(const std::vector<Peak>& peaks) {
+    double sum = 0.0, squares = 0.0;
+    for (const Peak& peak : peaks) sum += peak.height, squares += peak.height * peak.height;
+    return std::sqrt(std::max(0.0, squares * static_cast<double>(peaks.size()) / (sum * sum) - 1.0));
+}
+
+/// Spacings of consecutive peaks, without pauses, which are longer than random spacings.
+std::vector<double> gapsOf(const std::vector<Peak>& peaks) {
+    constexpr double pause = 4.0; // medians
+    std::vector<double> gaps;
+    for (std::size_t i = 1; i < peaks.size(); ++i) gaps.push_back(peaks[i].at - peaks[i - 1].at);
+    std::vector<double> sorted = gaps;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    std::erase_if(gaps, [longest = pause * *middle](double gap) { return gap > longest; });
+    return gaps;
+}
+
+double meanOf(const std::vector<double>& x) {
+    return std::accumulate(x.begin(), x.end(), 0.0) / static_cast<double>(x.size());
+}
+
+double unevennessOf(const std::vector<double>& gaps) {
+    const double mean = meanOf(gaps);
+    double sum = 0.0;
+    for (const double gap : gaps) sum += (gap / mean - 1.0) * (gap / mean - 1.0);
+    return std::sqrt(sum / static_cast<double>(gaps.size()));
+}
+
+/// Share of random grains that follow the one before at less than this, in spacings: a difference of two
+/// uniform distributions.
+double nearerThan(double spacings) {
+    constexpr double range = GrainChance::spacingRange;
+    return std::pow(std::max(0.0, spacings - (1.0 - range)) / range, 2.0) / 2.0;
+}
+
+std::optional<GrainTrain> countedAt(std::span<const double> samples, double rateHz, double halfWidthSeconds) {
+    const auto pulses = scrapePulses(samples, rateHz, halfWidthSeconds);
+    if (!pulses || !(pulses->skewness >= leastSkewness)) return std::nullopt;
+    const Standing out = standingOut(peaksOf(pulses->heights), noiseOf(pulses->heights));
+    if (out.peaks.size() < fewestGrains || spreadOf(out.peaks) > mostSpread) return std::nullopt;
+    GrainTrain train;
+    train.frequencyHz = pulses->frequencyHz;
+    train.decayPerSecond = pulses->decayPerSecond;
+    train.counted = out.peaks.size();
+    const std::vector<double> gaps = gapsOf(out.peaks);
+    train.perSecond = pulses->heightsPerSecond / meanOf(gaps);
+    train.unevenness = unevennessOf(gaps);
+    const double weak = std::clamp(
+        (out.threshold / out.mean - GrainChance::leastStrength) / GrainChance::strengthRange, 0.0, 0.95);
+    constexpr double apart = 0.75; // of the half width: closer pulses merge
+    const double near = nearerThan(apart * halfWidthSeconds * train.perSecond / (1.0 - weak));
+    train.lostShare = weak + near;
+    if (train.isEven()) { // ridges: all alike, and none close to another
+        train.strength = 0.0;
+        for (const Peak& peak : out.peaks) train.strength += peak.height / static_cast<double>(train.counted);
+        return train;
+    }
+    train.strength = out.mean;
+    train.perSecond *= (1.0 + near) / (1.0 - weak);
+    return train;
+}
+
+/// Uses the pulse width at which fewest grains are lost. None if fewer than 20 stand out, or more than 30 %
+/// are lost. Message thread (M) only.
+std::optional<GrainTrain> grainTrain(std::span<const double> samples, double rateHz) {
+    std::optional<GrainTrain> best;
+    for (double width = narrowestSeconds; width < widestSeconds && !(best && best->lostShare == 0.0);
+         width *= std::sqrt(2.0)) {
+        const auto train = countedAt(samples, rateHz, width);
+        if (train && train->lostShare <= mostLost && (!best || train->lostShare < best->lostShare))
+            best = train;
+    }
+    return best;
+}
+
+// Counts grains that stand out, else looks for repetition.
 
 constexpr double shortestSeconds = 0.5, mostSeconds = 8.0;
 constexpr std::size_t mostSamples = 400'000; // a second of computing, 50 MB

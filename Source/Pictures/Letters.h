@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Converts text to outlines, with fonts that are installed on this machine.
 #pragma once
-#include "Pictures/Path.h"
+#include "Pictures/Image.h"
 #include <filesystem>
 #include <memory>
 #include <string_view>

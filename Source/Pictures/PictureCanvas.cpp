@@ -1,9 +1,297 @@
 // SPDX-License-Identifier: MIT
 // Draws panels, text and axes in the palette's style.
 #include "Pictures/PictureCanvas.h"
+#include "Pictures/FreeType.h"
+#include <algorithm>
 #include <cmath>
+#include FT_OUTLINE_H
+#include FT_STROKER_H
 
 namespace physvib::picture {
+
+// Converts outlines for FreeType, and paints the spans of pixels that it returns.
+
+namespace {
+
+constexpr float furthest = 100000.0f; // pixels; FreeType refuses outlines that reach further
+constexpr int mostCorners = 1000,
+              widestPart = 128;             // of an outline that FreeType is not asked for in one piece
+constexpr std::size_t longestStroke = 1000; // steps at once: an outline has at most 32767 points
+
+FT_Vector fixed(Spot p) {
+    const auto part = [](float value) {
+        return static_cast<FT_Pos>(std::lround(64.0f * (value > furthest    ? furthest
+                                                        : value > -furthest ? value
+                                                                            : -furthest)));
+    };
+    return {part(p.x), part(p.y)};
+}
+
+/// FreeType's outline, and what it holds. FreeType 2.13.3 made tags, ends and their counts unsigned.
+struct Outline {
+    using Count = decltype(FT_Outline::n_points);
+    using End = std::remove_pointer_t<decltype(FT_Outline::contours)>;
+    std::vector<FT_Vector> points;
+    std::vector<std::remove_pointer_t<decltype(FT_Outline::tags)>> tags;
+    std::vector<End> ends;
+
+    void add(const Path& path, const Transform& move) {
+        for (const Path::Part& part : path.parts()) {
+            std::size_t at = 0;
+            for (const Path::Kind kind : part.steps) {
+                const auto count = std::max<std::size_t>(static_cast<std::size_t>(kind), 1);
+                for (std::size_t i = 0; i < count; ++i) {
+                    points.push_back(fixed(move.at(part.points[at++])));
+                    tags.push_back(i + 1 == count              ? FT_CURVE_TAG_ON
+                                   : kind == Path::Kind::cubic ? FT_CURVE_TAG_CUBIC
+                                                               : FT_CURVE_TAG_CONIC);
+                }
+            }
+            ends.push_back(static_cast<End>(points.size() - 1));
+        }
+    }
+    bool fits() const { return points.size() < 32768; }
+    FT_Outline view() {
+        return {static_cast<Count>(ends.size()),
+                static_cast<Count>(points.size()),
+                points.data(),
+                tags.data(),
+                ends.data(),
+                FT_OUTLINE_NONE};
+    }
+};
+
+} // namespace
+
+struct Painter::Raster {
+    FreeType library;
+    FT_Stroker stroker = nullptr;
+
+    Raster() {
+        if (FT_Stroker_New(library, &stroker) != 0) throw std::runtime_error{"FreeType has no stroker"};
+    }
+    ~Raster() { FT_Stroker_Done(stroker); }
+
+    struct Span {
+        int y;
+        FT_Span of;
+    };
+    std::vector<Span> spans; // of one outline, until it is known that there are no more
+
+    static void take(int y, int count, const FT_Span* found, void* user) {
+        for (int i = 0; i < count; ++i) static_cast<Raster*>(user)->spans.push_back({y, found[i]});
+    }
+
+    void paint(Painter& painter) const {
+        const RadialGradient& g = painter.gradient_;
+        const bool isPlain = g.inner == g.outer;
+        for (const auto& [y, span] : spans)
+            for (int x = span.x; x < span.x + span.len; ++x) {
+                const Spot pixel{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
+                const Colour colour =
+                    isPlain
+                        ? g.inner
+                        : g.inner.mixedWith(g.outer, std::min(g.centre.distanceTo(pixel) / g.radius, 1.0f));
+                painter.image_.blend(x, y, colour, span.coverage);
+            }
+    }
+
+    /// What may be painted of an outline.
+    static Area reach(const FT_Outline& outline, Area clip) {
+        FT_BBox box;
+        FT_Outline_Get_CBox(&outline, &box);
+        const auto left = static_cast<int>(box.xMin >> 6), top = static_cast<int>(box.yMin >> 6);
+        return clip.intersection({left, top, static_cast<int>(box.xMax >> 6) + 1 - left,
+                                  static_cast<int>(box.yMax >> 6) + 1 - top});
+    }
+
+    // Its memory is small: of an outline with many corners FreeType fills a part at a time.
+    void fill(Painter& painter, FT_Outline& outline, Area part) {
+        if (outline.n_points == 0 || part.empty()) return;
+        FT_Raster_Params params{};
+        params.flags = FT_RASTER_FLAG_AA | FT_RASTER_FLAG_DIRECT | FT_RASTER_FLAG_CLIP;
+        params.gray_spans = take;
+        params.user = this;
+        params.clip_box = {part.x, part.y, part.right(), part.bottom()};
+        spans.clear();
+        const bool isTried = outline.n_points < mostCorners || part.width <= widestPart;
+        if (isTried && FT_Outline_Render(library, &outline, &params) == 0) return paint(painter);
+        if (part.width == 1) return;
+        const Area left = part.removeFromLeft(part.width / 2);
+        fill(painter, outline, left);
+        fill(painter, outline, part);
+    }
+
+    /// What has gone into the stroker, filled.
+    void fillStroke(Painter& painter) {
+        FT_UInt points = 0, ends = 0;
+        FT_Stroker_GetCounts(stroker, &points, &ends);
+        Outline made;
+        made.points.resize(points), made.tags.resize(points), made.ends.resize(ends);
+        FT_Outline outline{0, 0, made.points.data(), made.tags.data(), made.ends.data(), FT_OUTLINE_NONE};
+        FT_Stroker_Export(stroker, &outline);
+        FT_Stroker_Rewind(stroker);
+        fill(painter, outline, reach(outline, painter.clip_));
+    }
+
+    // A long part is stroked in pieces.
+    void stroke(Painter& painter, const Path::Part& part, const Transform& move) {
+        const bool isLong = part.steps.size() > longestStroke, closes = part.isClosed && !isLong;
+        FT_Vector p[3]{fixed(move.at(part.points[0]))}; // the last is where the line is
+        const FT_Vector start = p[0];
+        FT_Vector at = start;
+        begin(at, !closes);
+        for (std::size_t step = 1, next = 1; step < part.steps.size(); ++step) {
+            const auto count = static_cast<std::size_t>(part.steps[step]); // of points: see Kind
+            for (std::size_t i = 0; i < count; ++i) p[i] = fixed(move.at(part.points[next++]));
+            add(at, p, count);
+            at = p[count - 1];
+            if (step % longestStroke != 0) continue;
+            end(painter);
+            begin(at, true);
+        }
+        if (part.isClosed && isLong) add(at, &start, 1);
+        end(painter);
+    }
+
+private:
+    void begin(FT_Vector at, bool isOpen) {
+        FT_Stroker_BeginSubPath(stroker, &at, isOpen);
+        isBegun_ = false;
+    }
+    void add(FT_Vector at, const FT_Vector* p, std::size_t count) {
+        FT_Vector to[3]{};
+        std::copy_n(p, count, to);
+        for (std::size_t i = 0; i < count; at = to[i++]) isBegun_ |= isApart(at, to[i], count);
+        if (count == 1)
+            FT_Stroker_LineTo(stroker, &to[0]);
+        else if (count == 2)
+            FT_Stroker_ConicTo(stroker, &to[0], &to[1]);
+        else
+            FT_Stroker_CubicTo(stroker, &to[0], &to[1], &to[2]);
+    }
+    // FreeType's stroker leaves out what goes nowhere, and ends a path of nothing else outside its memory.
+    void end(Painter& painter) {
+        if (!isBegun_) return FT_Stroker_Rewind(stroker);
+        FT_Stroker_EndSubPath(stroker);
+        fillStroke(painter);
+    }
+    static bool isApart(FT_Vector a, FT_Vector b, std::size_t count) noexcept {
+        const FT_Pos least = count == 1 ? 1 : 2; // of 64ths of a pixel, in curves
+        return std::abs(a.x - b.x) >= least || std::abs(a.y - b.y) >= least;
+    }
+    bool isBegun_ = false;
+};
+
+Painter::Painter(Image& image)
+    : image_{image}
+    , clip_{image.bounds()}
+    , raster_{std::make_unique<Raster>()} {}
+
+Painter::~Painter() = default;
+
+void Painter::fillAll(Colour colour) {
+    for (int y = 0; y < image_.height(); ++y)
+        for (int x = 0; x < image_.width(); ++x) image_.blend(x, y, colour);
+}
+
+void Painter::fillPath(const Path& path, const Transform& move) {
+    Outline outline;
+    outline.add(path, move);
+    if (!outline.fits()) return; // no shape of ours has so many corners
+    auto view = outline.view();
+    raster_->fill(*this, view, Raster::reach(view, clip_));
+}
+
+void Painter::strokePath(const Path& path, float width, const Transform& move) {
+    FT_Stroker_Set(raster_->stroker, std::lround(32.0f * width), FT_STROKER_LINECAP_BUTT,
+                   FT_STROKER_LINEJOIN_MITER_FIXED, 4 << 16);
+    for (const Path::Part& part : path.parts()) raster_->stroke(*this, part, move);
+}
+
+void Painter::fillRect(Box box) {
+    Path path;
+    path.addRectangle(box.x, box.y, box.width, box.height);
+    fillPath(path);
+}
+
+void Painter::fillEllipse(Box box) {
+    Path path;
+    path.addEllipse(box.x, box.y, box.width, box.height);
+    fillPath(path);
+}
+
+void Painter::fillRounded(Box box, float radius) {
+    Path path;
+    path.addRounded(box, radius);
+    fillPath(path);
+}
+
+void Painter::drawEllipse(Box box, float width) {
+    Path path;
+    path.addEllipse(box.x, box.y, box.width, box.height);
+    strokePath(path, width);
+}
+
+void Painter::drawRounded(Box box, float radius, float width) {
+    Path path;
+    path.addRounded(box, radius);
+    strokePath(path, width);
+}
+
+void Painter::drawLine(Spot from, Spot to, float width) {
+    Path path;
+    path.startNewSubPath(from);
+    path.lineTo(to);
+    strokePath(path, width);
+}
+
+void Painter::blend(int x, int y, Colour colour) {
+    if (clip_.contains({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}))
+        image_.blend(x, y, colour);
+}
+
+namespace {
+constexpr float quarter = 0.5522848f; // of a circle by a cubic: its handles, as a share of the radius
+}
+
+void Path::addRectangle(float x, float y, float width, float height) {
+    startNewSubPath(x, y);
+    for (const Spot corner : {Spot{x + width, y}, Spot{x + width, y + height}, Spot{x, y + height}})
+        lineTo(corner);
+    closeSubPath();
+}
+
+void Path::addEllipse(float x, float y, float width, float height) {
+    const float a = 0.5f * width, b = 0.5f * height, cx = x + a, cy = y + b;
+    startNewSubPath(cx + a, cy);
+    cubicTo({cx + a, cy + quarter * b}, {cx + quarter * a, cy + b}, {cx, cy + b});
+    cubicTo({cx - quarter * a, cy + b}, {cx - a, cy + quarter * b}, {cx - a, cy});
+    cubicTo({cx - a, cy - quarter * b}, {cx - quarter * a, cy - b}, {cx, cy - b});
+    cubicTo({cx + quarter * a, cy - b}, {cx + a, cy - quarter * b}, {cx + a, cy});
+    closeSubPath();
+}
+
+void Path::addRounded(Box box, float radius) {
+    const float r = std::min({radius, 0.5f * box.width, 0.5f * box.height}), k = (1.0f - quarter) * r;
+    const float left = box.x, top = box.y, right = box.right(), bottom = box.bottom();
+    startNewSubPath(left + r, top);
+    lineTo(right - r, top);
+    cubicTo({right - k, top}, {right, top + k}, {right, top + r});
+    lineTo(right, bottom - r);
+    cubicTo({right, bottom - k}, {right - k, bottom}, {right - r, bottom});
+    lineTo(left + r, bottom);
+    cubicTo({left + k, bottom}, {left, bottom - k}, {left, bottom - r});
+    lineTo(left, top + r);
+    cubicTo({left, top + k}, {left + k, top}, {left + r, top});
+    closeSubPath();
+}
+
+void Path::move(const Transform& by) {
+    for (Part& part : parts_)
+        for (Spot& p : part.points) p = by.at(p);
+}
+
 namespace {
 
 /// As many letters of `words` as there is room for, and three dots.
@@ -35,26 +323,6 @@ void Canvas::text(std::string_view words, Area area, Align where, Colour colour,
                       Transform{}.translated(left, std::round(top + letters.ascent(height, bold))));
 }
 
-int Canvas::textWidth(std::string_view words, float height, bool bold) const {
-    return roundToInt(std::ceil(letters.width(words, height, bold))) + 1;
-}
-
-void Canvas::panel(Area area) const {
-    graphics.setColour(palette::panel);
-    graphics.fillRounded(area.toFloat(), 8.0f);
-}
-
-void Canvas::well(Area area) const {
-    graphics.setColour(palette::well);
-    graphics.fillRounded(area.toFloat(), 3.0f);
-}
-
-void Canvas::heading(std::string_view name, std::string_view remark, Area row) const {
-    text(name, row, Align::left, palette::text, smallText, true);
-    row.removeFromLeft(textWidth(name, smallText, true) + 24);
-    text(remark, row, Align::right, palette::muted);
-}
-
 std::vector<double> ticks(double from, double to, int most) {
     if (!(to > from) || most < 1) return {from};
     double step = std::pow(10.0, std::floor(std::log10((to - from) / most)));
@@ -67,18 +335,6 @@ std::vector<double> ticks(double from, double to, int most) {
     std::vector<double> places;
     for (double i = std::ceil((from - slack) / step); i * step <= to + slack; ++i) places.push_back(i * step);
     return places;
-}
-
-float Axis::x(double value) const {
-    const double share = to > from ? (value - from) / (to - from) : 0.0;
-    return static_cast<float>(lane.x + share * lane.width);
-}
-
-void Axis::drawGrid(const Canvas& canvas, const std::vector<double>& places, Colour colour) const {
-    canvas.graphics.setColour(colour);
-    for (const double t : places)
-        canvas.graphics.fillRect(
-            {std::floor(x(t)), static_cast<float>(lane.y), 1.0f, static_cast<float>(lane.height)});
 }
 
 void Axis::drawLabels(const Canvas& canvas, const std::vector<double>& places, const std::string& unit,

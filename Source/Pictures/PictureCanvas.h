@@ -3,14 +3,74 @@
 #pragma once
 #include "Io/Text/CleanText.h"
 #include "Io/Text/ReadableNumber.h"
+#include "Pictures/Image.h"
 #include "Pictures/Letters.h"
-#include "Pictures/Painter.h"
 #include "Pictures/Palette.h"
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace physvib::picture {
+
+// Fills and strokes outlines on an image, with smooth edges, by FreeType's rasteriser.
+
+/// From `inner` at the centre to `outer` at `radius` and beyond.
+struct RadialGradient {
+    Spot centre;
+    float radius = 1.0f;
+    Colour inner, outer;
+};
+
+/// Paints on an image that outlives it. One thread at a time.
+class Painter {
+public:
+    explicit Painter(Image& image);
+    ~Painter();
+    Painter(const Painter&) = delete;
+    Painter& operator=(const Painter&) = delete;
+
+    void setColour(Colour colour) noexcept { gradient_ = {{}, 1.0f, colour, colour}; }
+    void setGradient(const RadialGradient& gradient) noexcept { gradient_ = gradient; }
+
+    void fillAll(Colour colour);
+    void fillPath(const Path& path, const Transform& move = {});
+    /// A line of that width along the path, with mitred corners and flat ends.
+    void strokePath(const Path& path, float width, const Transform& move = {});
+    void fillRect(Box box);
+    void fillEllipse(Box box);
+    void fillRounded(Box box, float radius);
+    void drawEllipse(Box box, float width);
+    void drawRounded(Box box, float radius, float width);
+    void drawLine(Spot from, Spot to, float width);
+    void blend(int x, int y, Colour colour); ///< one pixel, whatever has been added as a transform
+
+    /// Nothing is painted outside of it as well.
+    void reduceClip(Area area) noexcept { clip_ = clip_.intersection(area); }
+
+    /// The clip as it was, at the end of the block.
+    class Saved {
+    public:
+        explicit Saved(Painter& painter) noexcept
+            : painter_{painter}
+            , clip_{painter.clip_} {}
+        ~Saved() { painter_.clip_ = clip_; }
+        Saved(const Saved&) = delete;
+        Saved& operator=(const Saved&) = delete;
+
+    private:
+        Painter& painter_;
+        Area clip_;
+    };
+
+private:
+    struct Raster;
+
+    Image& image_;
+    RadialGradient gradient_{};
+    Area clip_;
+    std::unique_ptr<Raster> raster_;
+};
 
 using namespace readable;
 
@@ -28,11 +88,23 @@ struct Canvas {
     /// One line, cut with an ellipsis if it is wider than `area`. Words are clean: cleanLine().
     void text(std::string_view words, Area area, Align where, Colour colour, float height = smallText,
               bool bold = false) const;
-    int textWidth(std::string_view words, float height, bool bold = false) const;
-    void panel(Area area) const;
-    void well(Area area) const;
+    int textWidth(std::string_view words, float height, bool bold = false) const {
+        return roundToInt(std::ceil(letters.width(words, height, bold))) + 1;
+    }
+    void panel(Area area) const {
+        graphics.setColour(palette::panel);
+        graphics.fillRounded(area.toFloat(), 8.0f);
+    }
+    void well(Area area) const {
+        graphics.setColour(palette::well);
+        graphics.fillRounded(area.toFloat(), 3.0f);
+    }
     /// The name of a part at the left of `row`, a remark at its right.
-    void heading(std::string_view name, std::string_view remark, Area row) const;
+    void heading(std::string_view name, std::string_view remark, Area row) const {
+        text(name, row, Align::left, palette::text, smallText, true);
+        row.removeFromLeft(textWidth(name, smallText, true) + 24);
+        text(remark, row, Align::right, palette::muted);
+    }
 };
 
 /// Round values (1, 2 or 5 times a power of ten) between `from` and `to`, at most `most` of them.
@@ -44,8 +116,17 @@ struct Axis {
     double to = 0.0;
     Area lane;
 
-    float x(double value) const; ///< pixels from the image's left
-    void drawGrid(const Canvas& canvas, const std::vector<double>& places, Colour colour) const;
+    /// pixels from the image's left
+    float x(double value) const {
+        const double share = to > from ? (value - from) / (to - from) : 0.0;
+        return static_cast<float>(lane.x + share * lane.width);
+    }
+    void drawGrid(const Canvas& canvas, const std::vector<double>& places, Colour colour) const {
+        canvas.graphics.setColour(colour);
+        for (const double t : places)
+            canvas.graphics.fillRect(
+                {std::floor(x(t)), static_cast<float>(lane.y), 1.0f, static_cast<float>(lane.height)});
+    }
     /// A number under each place, the last with the unit.
     void drawLabels(const Canvas& canvas, const std::vector<double>& places, const std::string& unit,
                     Area row) const;

@@ -3,7 +3,6 @@
 #include "Pictures/PictureParts.h"
 #include "Pictures/ShapeOutline.h"
 #include "Scene/World/SceneCast.h"
-#include <algorithm>
 
 namespace physvib::picture {
 

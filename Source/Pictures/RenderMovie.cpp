@@ -3,8 +3,6 @@
 // light of recent impacts and the time.
 #include "Pictures/RenderMovie.h"
 #include "Pictures/PictureParts.h"
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <webp/encode.h>
 #include <webp/mux.h>

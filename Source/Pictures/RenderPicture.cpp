@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Lays out the panels of a render's picture, and draws it.
+// Lays out the panels of a render's picture, draws it, and encodes it as PNG.
 #include "Pictures/RenderPicture.h"
 #include "Pictures/PictureParts.h"
-#include <algorithm>
-#include <cmath>
+#include <png.h>
+#include <stdexcept>
 
 namespace physvib {
 namespace {
@@ -73,6 +73,20 @@ FrameWindow zoomWindow(std::span<const CollisionEvent> events, int sampleRateHz)
     if (index < 0) return {};
     const double onset = static_cast<double>(events[static_cast<std::size_t>(index)].timeNs) * 1e-9;
     return {std::llround((onset - 0.010) * sampleRateHz), std::llround(0.100 * sampleRateHz)};
+}
+
+std::string picture::Image::png() const {
+    png_image head{};
+    head.version = PNG_IMAGE_VERSION;
+    head.width = static_cast<png_uint_32>(width_);
+    head.height = static_cast<png_uint_32>(height_);
+    head.format = PNG_FORMAT_RGB;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(head);
+    std::string bytes(size, '\0');
+    if (!png_image_write_to_memory(&head, bytes.data(), &size, 0, rgb_.data(), 0, nullptr))
+        throw std::runtime_error{std::string{"no PNG could be made: "} + head.message};
+    bytes.resize(size);
+    return bytes;
 }
 
 Image drawPicture(const PictureInput& input, const Letters& letters) {

@@ -2,7 +2,6 @@
 // Creates the events of pattern and phantom stimuli.
 #include "Stimuli/Stimulus.h"
 #include "Core/PortableMath.h"
-#include <cmath>
 #include <numbers>
 
 namespace physvib {

@@ -4,10 +4,75 @@
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
 #include "Core/PhantomPanner.h"
-#include "Stimuli/PulsePattern.h"
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
+
+// Spatiotemporal patterns: one to three pulses, each on one actuator (thesis 3.2).
+
+/// Consecutive pulses of one duration; pulse k is on actuator enchanters[k], k < count.
+struct PulsePattern {
+    double pulseSeconds = 0.0;
+    int count = 0;
+    std::array<int, 3> enchanters{};
+    bool operator==(const PulsePattern&) const = default;
+};
+
+/// Silence between two pulses of a pattern (thesis 3.2.2).
+constexpr double pulseGapSeconds = 0.1;
+/// The two pulse durations of the thesis' study.
+constexpr std::array<double, 2> pulseDurationsSeconds{0.1, 0.25};
+
+/// All D (E + E^2 + E^3) patterns for E actuators, by duration, then count, then actuators. Message thread
+/// (M) only (allocates).
+inline std::vector<PulsePattern> allPulsePatterns(int enchanterCount) {
+    std::vector<PulsePattern> patterns;
+    for (const double seconds : pulseDurationsSeconds) {
+        int combinations = 1;
+        for (int count = 1; count <= 3; ++count) {
+            combinations *= enchanterCount;
+            for (int c = 0; c < combinations; ++c) {
+                PulsePattern p{seconds, count, {}};
+                for (int k = count - 1, rest = c; k >= 0; --k, rest /= enchanterCount)
+                    p.enchanters[static_cast<std::size_t>(k)] = rest % enchanterCount;
+                patterns.push_back(p);
+            }
+        }
+    }
+    return patterns;
+}
+
+/// "ABA-250": the enchanters' letters by pulse, then a pulse's milliseconds. Enchanters 0 to 25. M only.
+inline std::string patternLabel(const PulsePattern& p) {
+    std::string label;
+    for (int k = 0; k < p.count; ++k)
+        label += static_cast<char>('A' + p.enchanters[static_cast<std::size_t>(k)]);
+    return label.append("-").append(std::to_string(std::lround(p.pulseSeconds * 1e3)));
+}
+
+/// Parses such a label: one to three letters, 1 to 10000 ms; nullopt otherwise. Any thread.
+inline std::optional<PulsePattern> parsePatternLabel(std::string_view label) noexcept {
+    PulsePattern p;
+    while (!label.empty() && label.front() >= 'A' && label.front() <= 'Z') {
+        if (p.count == 3) return std::nullopt;
+        p.enchanters[static_cast<std::size_t>(p.count++)] = label.front() - 'A';
+        label.remove_prefix(1);
+    }
+    int milliseconds = 0;
+    if (p.count == 0 || !label.starts_with('-')) return std::nullopt;
+    const auto [end, error] = std::from_chars(label.data() + 1, label.data() + label.size(), milliseconds);
+    if (error != std::errc{} || end != label.data() + label.size() || milliseconds < 1 ||
+        milliseconds > 10000)
+        return std::nullopt;
+    p.pulseSeconds = milliseconds * 1e-3;
+    return p;
+}
 
 // A place on the response field of a study, as a share of its width and height.
 

@@ -3,7 +3,7 @@
 #include "Calls/LoadedRender.h"
 #include "Core/Units.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Files/CouplingFile.h"
+#include "Lab/Study/Coupling.h"
 #include "Scene/ActuatorFile.h"
 #include <algorithm>
 #include <cmath>

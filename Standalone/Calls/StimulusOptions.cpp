@@ -4,7 +4,7 @@
 #include "Calls/RenderOptions.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include <algorithm>
 #include <cmath>
 

@@ -11,7 +11,6 @@
 #include "Live/Session/StimulusRender.h"
 #include "Options/Parser.h"
 #include "Scene/EventsCsv.h"
-#include "Scene/LayoutFile.h"
 #include <algorithm>
 #include <functional>
 #include <set>

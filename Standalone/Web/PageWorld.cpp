@@ -2,8 +2,7 @@
 // Steps the world, applies pulls, and renders with the output latency.
 #include "PageWorld.h"
 #include "Formats/ClipFile.h"
-#include "Formats/ClipSound.h"
-#include "Formats/HjifFile.h"
+#include "Formats/StrikeClip.h"
 #include "Measure/HitExcerpt.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/World/SceneCast.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Trials as a BIDS dataset: the files that its validator wants, nothing lost, nothing that breaks a row.
-#include "Lab/Report/BidsDataset.h"
+#include "Lab/Report/AnalysisScript.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib attenuation FOLDER` and `physvib coupling`: recordings whose answers are known.
 #include "Calls.h"
-#include "Lab/Files/CouplingFile.h"
+#include "Lab/Study/Coupling.h"
 #include <cmath>
 #include <cstring>
 #include <numbers>

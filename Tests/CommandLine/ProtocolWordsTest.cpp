@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A report's section on methods has every field of a protocol by its name, with its default, and none that
 // says nothing.
-#include "Lab/Report/ProtocolWords.h"
 #include "Lab/Files/ProtocolFile.h"
+#include "Lab/Report/ReportBuilder.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -4,7 +4,7 @@
 // ReportFieldsTest and ProtocolWordsTest, of times in ProtocolExamplesTest, of plans and unfinished
 // participants in ReportCommandTest.
 #include "EditedReports.h"
-#include "Lab/Report/ProtocolWords.h"
+#include "Lab/Report/ReportBuilder.h"
 #include <set>
 
 namespace physvib {

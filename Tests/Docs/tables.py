@@ -42,16 +42,16 @@ for script, rows in told.items():
         bad += [f"{script}: expected a page with the line that it prints: {row}" for row in printed_by(script) if row not in rows]
 
 cell = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # the formatter may have cut a text in two
-source = (root / "Source/Lab/Study/ThesisDeviations.h").read_text()
+source = (root / "Source/Lab/Files/ProtocolFile.h").read_text()
 page = (root / "Docs/studies-thesis.md").read_text()
 deviations = re.findall(r"ThesisDeviation\{\s*" + r",\s*".join([cell] * 5) + r"(?:,\s*Thesis\w+::\w+)*\}", source)
 lines = {f"| `{protocol}` {section} | {thesis} | {here} | {change or '-'} |" for protocol, section, thesis, here, change in ([re.sub(r'"\s*"', "", text.strip())[1:-1] for text in one] for one in deviations)}
 for line in sorted(lines):
     if line not in page.split("\n"):
-        bad.append(f"Docs/studies-thesis.md: expected the line of Source/Lab/Study/ThesisDeviations.h: {line}")
+        bad.append(f"Docs/studies-thesis.md: expected the line of Source/Lab/Files/ProtocolFile.h: {line}")
 for line in re.findall(r"^\| `[a-z-]+` \d.*\|$", page, re.M):
     if line not in lines:
-        bad.append(f"Docs/studies-thesis.md: a deviation that Source/Lab/Study/ThesisDeviations.h does not have: {line}")
+        bad.append(f"Docs/studies-thesis.md: a deviation that Source/Lab/Files/ProtocolFile.h does not have: {line}")
 
 thesis = {f"| {row['at']} | {row['misprint']} |" for row in json.loads((root / "Source/Lab/Thesis/thesis.json").read_text()) if "misprint" in row}
 shown = set(re.findall(r"^\| .* \|$", (root / "Docs/thesis.md").read_text().split("## Misprints")[1], re.M)) - {"| thesis | cannot be |", "| --- | --- |"}

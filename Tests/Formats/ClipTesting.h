@@ -4,7 +4,6 @@
 #include "Core/ClockLaw.h"
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
-#include "Formats/ClipSound.h"
 #include "Formats/StrikeClip.h"
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 // Control points for Android: what a phone makes of the file, by the builder's documented formula, against
 // the channel's envelope.
 #include "Formats/EnvelopeFile.h"
-#include "Formats/ClipEnvelope.h"
 #include "Formats/ClipFile.h"
 #include <cmath>
 #include <gtest/gtest.h>

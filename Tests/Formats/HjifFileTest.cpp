@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // MPEG's JSON: what was written is read again and sounds the same; what others write is read or refused.
-#include "Formats/HjifFile.h"
 #include "ClipTesting.h"
-#include "Formats/ClipLimits.h"
+#include "Formats/Clip.h"
+#include "Formats/ClipFile.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

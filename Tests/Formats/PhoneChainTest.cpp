@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A folder of .haptic files with every feature of the format, through .ahap and back: each transient stays
 // what it was.
-#include "Formats/AhapFile.h"
-#include "Formats/ClipEnvelope.h"
 #include "Formats/ClipFile.h"
+#include "Formats/EnvelopeFile.h"
 #include <array>
 #include <cmath>
 #include <filesystem>

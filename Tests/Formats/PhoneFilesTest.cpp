@@ -2,11 +2,9 @@
 // Meta's and Apple's files: their rules are kept, what both carry comes back, what breaks a rule is refused
 // in one line.
 #include "ClipTesting.h"
-#include "Formats/AhapFile.h"
-#include "Formats/ClipEnvelope.h"
+#include "Formats/Clip.h"
 #include "Formats/ClipFile.h"
-#include "Formats/ClipLimits.h"
-#include "Formats/MetaHapticFile.h"
+#include "Formats/EnvelopeFile.h"
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>

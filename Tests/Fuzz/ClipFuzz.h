@@ -2,7 +2,7 @@
 // What every reader of a haptic file of others is asked.
 #pragma once
 #include "Formats/ClipFile.h"
-#include "Formats/ClipSound.h"
+#include "Formats/StrikeClip.h"
 #include "Fuzzing.h"
 
 namespace physvib::fuzz {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Fuzz target of the reader of couplings, and of the drives that follow from them.
 #include "Fuzzing.h"
-#include "Lab/Files/CouplingFile.h"
+#include "Lab/Study/Coupling.h"
 #include <cmath>
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The number, the order, the distinctness, the length and the labels of the thesis' spatiotemporal patterns
 // (3.2).
-#include "Stimuli/PulsePattern.h"
+#include "Stimuli/Stimulus.h"
 #include <algorithm>
 #include <array>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A measured coupling is read as it was written, and a bad one is named by its place.
-#include "Lab/Files/CouplingFile.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Lab/Study/Coupling.h"
 #include "Support/FileTesting.h"
 
 namespace physvib {

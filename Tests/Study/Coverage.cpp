@@ -2,7 +2,7 @@
 // How often 95 % intervals hold, and how often studies without any difference find one, by simulation.
 // Minutes; by hand and every night. Exit code 1 beyond 93 to 97 %, or above 5 % of false findings by more
 // than chance.
-#include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/Experiment.h"
 #include "Lab/Study/Places.h"
 #include "Lab/Study/Psychometric.h"
 #include "Lab/Study/Summaries.h"

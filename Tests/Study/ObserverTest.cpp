@@ -4,7 +4,7 @@
 #include "Lab/Study/Identification.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/Summaries.h"
-#include "Lab/Thesis/Published.h"
+#include "Lab/Thesis/ThesisPage.h"
 #include "Thesis/PlaceBlur.h"
 #include <array>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The published percent counts give the published resolutions (thesis Fig. 4.9); merging against brute force.
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Points of a grid, and the cell that a place belongs to.
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

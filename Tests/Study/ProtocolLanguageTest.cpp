@@ -6,7 +6,7 @@
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Files/TrialLog.h"
-#include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/Experiment.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyRun.h"

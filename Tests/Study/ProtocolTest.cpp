@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a protocol may say, the stimuli it names, and the orders it makes.
 #include "Lab/Study/Protocol.h"
-#include "Lab/Study/StudyOrder.h"
+#include "Lab/Study/Experiment.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <map>

@@ -2,7 +2,7 @@
 // Psychometric functions against R's glm and simulated observers, intervals by how often they hold, QUEST+
 // against a staircase.
 #include "Lab/Study/Psychometric.h"
-#include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/Experiment.h"
 #include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/Summaries.h"
 #include "Stimuli/SeededRandom.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The threshold that a staircase has come to.
 #pragma once
-#include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/Experiment.h"
 #include <numeric>
 
 namespace physvib::test {

@@ -2,7 +2,7 @@
 // A model of where phantoms are felt: the place, blurred by a normal distribution, answered with the nearest
 // point.
 #pragma once
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include <cmath>
 #include <numbers>
 #include <span>

@@ -6,12 +6,12 @@
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialLog.h"
-#include "Lab/Report/ReportPage.h"
+#include "Lab/Report/ReportBuilder.h"
 #include "Lab/Report/StudyReport.h"
 #include "Lab/Study/Identification.h"
 #include "Lab/Study/Places.h"
 #include "Lab/Study/SimulatedObserver.h"
-#include "Lab/Thesis/Published.h"
+#include "Lab/Thesis/ThesisPage.h"
 #include "Thesis/PlaceBlur.h"
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,8 @@
 // JavaScript exports for haptic clips: read a file to samples, write events as a file.
 #include "Api/C/Calls.h"
 #include "Api/JavaScript/Exports.h"
+#include "Formats/Clip.h"
 #include "Formats/ClipFile.h"
-#include "Formats/ClipLimits.h"
-#include "Formats/ClipSound.h"
 #include "Formats/StrikeClip.h"
 #include "Io/Text/NameList.h"
 #include "Scene/LayoutFile.h"

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Analyses of choices, ratings and levels, and of functions fitted to them, as text and tables.
-#include "Io/Text/CleanText.h"
-#include "Io/Text/NumberText.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
-#include "Lab/Study/Psychometric.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 namespace physvib {

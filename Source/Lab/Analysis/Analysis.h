@@ -7,7 +7,7 @@
 #include "Io/Text/CsvTable.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/Psychometric.h"
 #include <cstddef>
@@ -18,6 +18,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace physvib {
@@ -77,12 +78,8 @@ public:
         appendCell(text_, words);
         return *this;
     }
-    ExportTable& cell(double number) {
-        separate();
-        appendNumber(text_, number);
-        return *this;
-    }
-    ExportTable& cell(std::size_t number) {
+    template <class Number>
+    requires std::is_arithmetic_v<Number> ExportTable& cell(Number number) {
         separate();
         appendNumber(text_, number);
         return *this;

@@ -2,7 +2,6 @@
 // Draws study results, for the pictures of `analyse` and for reports.
 #include "Lab/Analysis/StudyCharts.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <cmath>
 #include <map>

@@ -3,7 +3,7 @@
 #pragma once
 #include "Io/Charts/Charts.h"
 #include "Lab/Files/StudyTables.h"
-#include "Lab/Study/Attenuation.h"
+#include "Lab/Study/Coupling.h"
 #include "Lab/Study/Identification.h"
 #include "Lab/Study/Places.h"
 #include "Lab/Study/Psychometric.h"

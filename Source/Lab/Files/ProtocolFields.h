@@ -20,7 +20,7 @@ inline constexpr Bounds rest = upTo(86400.0);   // a day
 inline constexpr Bounds count = upTo(100000.0); // number of trials in a week
 inline constexpr Bounds names{{}, {}, 0, 64};   // alternatives, objects or scales that fit on a screen
 inline constexpr Bounds call = upTo(static_cast<double>(mostCallBytes)); // length of text in bytes
-inline constexpr Bounds lines{1.0, 16.0}; // number of grid lines that merging can divide (PercentCounts.h)
+inline constexpr Bounds lines{1.0, 16.0}; // number of grid lines that merging can divide (Identification.h)
 } // namespace studyBounds
 
 void visitFields(auto& v, FieldsOf<PatternSet>) {

@@ -9,9 +9,7 @@
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFields.h"
-#include "Lab/Files/StudyTables.h"
 #include "Lab/Files/TrialLog.h"
-#include "Lab/Study/Protocol.h"
 #include "Scene/JsonReader.h"
 #include "Scene/JsonWriter.h"
 #include "Scene/SceneRanges.h"
@@ -253,16 +251,6 @@ void eachCall(Protocol& protocol, Act act) {
             condition.stimuli);
 }
 
-void addToCalls(Protocol& protocol, std::string_view options) {
-    eachCall(protocol, [options](std::string& call) { call.append(" ").append(options); });
-}
-
-void changeCalls(Protocol& protocol, std::string_view words, std::string_view others) {
-    eachCall(protocol, [&](std::string& call) {
-        if (const auto at = call.find(words); at != call.npos) call.replace(at, words.size(), others);
-    });
-}
-
 void edit(Protocol& protocol, const ThesisDeviation& one) {
     switch (one.edit) {
     case ThesisEdit::none: break;
@@ -273,10 +261,17 @@ void edit(Protocol& protocol, const ThesisDeviation& one) {
         for (ConditionPlan& condition : protocol.conditions) condition.group.clear();
         break;
     case ThesisEdit::addToCalls:
-        addToCalls(protocol,
-                   one.change.substr(addsFrom.size(), one.change.size() - addsFrom.size() - addsTo.size()));
+        eachCall(protocol, [&one](std::string& call) {
+            call.append(" ").append(one.change, addsFrom.size(),
+                                    one.change.size() - addsFrom.size() - addsTo.size());
+        });
         break;
-    case ThesisEdit::matchPeaks: changeCalls(protocol, "--sound-match rms", "--sound-match peak"); break;
+    case ThesisEdit::matchPeaks:
+        eachCall(protocol, [words = std::string_view{"--sound-match rms"}](std::string& call) {
+            if (const auto at = call.find(words); at != call.npos)
+                call.replace(at, words.size(), "--sound-match peak");
+        });
+        break;
     }
 }
 

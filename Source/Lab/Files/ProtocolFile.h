@@ -8,13 +8,126 @@
 #include "Lab/Files/StudyTables.h"
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/Stimulus.h"
-#include "Lab/Study/ThesisDeviations.h"
+#include <array>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace physvib {
+
+// Table of deviations of the built-in protocols from the thesis' studies, and the change that removes each.
+// `study check`, the report and Docs/studies-thesis.md use it (Tests/Docs compares the page).
+
+/// A change of a protocol that removes a deviation.
+enum class ThesisEdit {
+    none,          ///< no automatic change exists
+    noBreakBefore, ///< removes breaks before sessions
+    noGroups,      ///< removes condition groups
+    addToCalls,    ///< adds the words of `change` between addsFrom and addsTo
+    matchPeaks     ///< recordings by their peak, in place of their strength
+};
+
+/// What of a hit, pulse or phantom a deviation changes; a test plays all and looks for others.
+enum class ThesisPart { none, amplitude, duration, frequency, decay, gains, limiter, guard };
+
+/// One deviation of one protocol.
+struct ThesisDeviation {
+    std::string_view protocol; ///< its name
+    std::string_view section;  ///< of the thesis
+    std::string_view thesis;   ///< procedure in the thesis
+    std::string_view here;     ///< procedure in the protocol
+    std::string_view change;   ///< change that makes it run as published; empty: not possible
+    ThesisEdit edit = ThesisEdit::none;
+    ThesisPart part = ThesisPart::none;
+};
+
+/// Suffix of the names of versions as published (Files/ProtocolFile.h).
+inline constexpr std::string_view thesisSuffix = "-thesis";
+
+/// Around the words that ThesisEdit::addToCalls adds.
+inline constexpr std::string_view addsFrom = "add ", addsTo = " to the call";
+
+inline constexpr std::array thesisDeviations{
+    ThesisDeviation{"patterns", "3.2.1", "2 minutes of rest after each main session",
+                    "2 minutes before each main session as well", "remove break_before_s",
+                    ThesisEdit::noBreakBefore},
+    ThesisDeviation{"patterns", "3.2.1", "answers on a tablet's touch screen",
+                    "on the mixer's screen, by mouse or touch", ""},
+    ThesisDeviation{"phantom-grids", "4.1.1", "orders of all six conditions by Latin squares",
+                    "the conditions of PHONE and of RING stay together: with 18 participants places are "
+                    "balanced, 24 of 30 successions occur",
+                    "remove group of each condition", ThesisEdit::noGroups},
+    ThesisDeviation{"phantom-grids", "4.1.1", "answers on a tablet's touch screen",
+                    "on the mixer's screen, by mouse or touch", ""},
+    ThesisDeviation{"phantom-places", "4.2.1", "orders of all four conditions by Latin squares",
+                    "the conditions of PHONE and of RING stay together: with 16 participants places are "
+                    "balanced, 8 of 12 successions occur",
+                    "remove group of each condition", ThesisEdit::noGroups},
+    ThesisDeviation{"phantom-places", "4.2.1", "answers on a tablet's touch screen",
+                    "on the mixer's screen, by mouse or touch", ""},
+    ThesisDeviation{"phantom-places", "4.2.1", "Eq. 4.3, which diverges as printed",
+                    "the law log, a reconstruction that falls from 1 to 0", "", ThesisEdit::none,
+                    ThesisPart::gains},
+    ThesisDeviation{"model-or-sound", "5.2.1", "three experts match the levels before the study",
+                    "each participant matches them",
+                    "levels_file of three experts in place of levels_from and the session matching"},
+    ThesisDeviation{"model-or-sound", "5.2.1", "impulses are taken when a contact is released (Eq. 5.2)",
+                    "impacts are rendered when a contact begins, with the solver's impulse",
+                    "add --timing release to the call", ThesisEdit::addToCalls},
+    ThesisDeviation{"model-or-sound", "5.2.1", "a decay ends where it has fallen to a tenth (Eq. 5.5)",
+                    "a decay rings out", "add --gamma 0.1 to the call", ThesisEdit::addToCalls},
+    ThesisDeviation{"model-or-sound", "5.2.1", "three downloaded contact sounds, one per pair",
+                    "synthetic contacts; give your own by --sound or sounds", "sounds of your own"},
+    ThesisDeviation{"model-or-sound", "5.2.1", "the normalised recording times A_i",
+                    "a recording is as strong as the mode over 0.25 s", "--sound-match peak in the call",
+                    ThesisEdit::matchPeaks},
+    ThesisDeviation{
+        "model-or-sound", "5.2.1", "levels and actuator as built there",
+        "the recorded contact at -8 dB and the model at -2 dB or less of their calls' own levels, "
+        "which differ by fall, so that no stimulus needs the limiter",
+        "a layout of your actuator, and its levels", ThesisEdit::none, ThesisPart::amplitude},
+    ThesisDeviation{"model-or-sound", "5.2.1",
+                    "amplitudes by Eq. 5.4 and 5.7, of a screen as wide as the plate (58 mm, 2.9 m)",
+                    "1.5 times as strong, by a field of 8 m and a drive_gain of 4.1",
+                    "add --set screen=2.9 --set drive_gain=1 to the call", ThesisEdit::addToCalls,
+                    ThesisPart::amplitude},
+    ThesisDeviation{"eight-methods", "5.3.1", "impulses are taken when a contact is released (Eq. 5.2)",
+                    "impacts are rendered when a contact begins, with the solver's impulse",
+                    "add --timing release to the call", ThesisEdit::addToCalls},
+    ThesisDeviation{"eight-methods", "5.3.1", "a decay ends where it has fallen to a tenth (Eq. 5.5)",
+                    "a decay rings out", "add --gamma 0.1 to the call", ThesisEdit::addToCalls},
+    ThesisDeviation{
+        "eight-methods", "5.3.1",
+        "A=F: each collision has 1.5 g; what sounds together is added, and normalised beyond full scale",
+        "1.5 g is the peak of all that sound together: a hit is weaker while others sound, down to 0",
+        "add --fixed-level each to the call", ThesisEdit::addToCalls},
+    ThesisDeviation{"eight-methods", "5.3.1", "amplitudes by Eq. 5.4 and 5.7",
+                    "1.6 times as strong, by drive_gain of the scene box-study",
+                    "add --set drive_gain=1 to the call", ThesisEdit::addToCalls, ThesisPart::amplitude},
+    ThesisDeviation{
+        "eight-methods", "5.3.1", "what is added is normalised block by block (5.1.3)",
+        "one smooth limiter: hits of AF with --fixed-level each ask for up to 8.5 g together, of the "
+        "layout's 2 g; 41 % of hits are weakened, at most to 24 %",
+        "add --limiter blocks to the call", ThesisEdit::addToCalls, ThesisPart::limiter},
+    ThesisDeviation{
+        "eight-methods", "5.3.1", "AF-FV-DRF and AF-FV-DRV of rubber: 80 Hz, whose hits have a mean",
+        "half a sine over each hit takes its mean off: 0.42 g at 25 Hz, peak 1.92 g for 1.50 g; 0.07 g at "
+        "7 Hz, peak 1.34 g for 1.35 g; rms 0.3 and 0.0 dB more",
+        "", ThesisEdit::none, ThesisPart::guard},
+    ThesisDeviation{"eight-methods", "5.3.1", "walls of 0.02 m",
+                    "walls of 0.3 m outside the same field, through which nothing is pressed",
+                    "--set walls=0.02 in the call"},
+    ThesisDeviation{"eight-methods", "5.3.1", "no rest is mentioned between training and main session",
+                    "2 minutes before the main session", "remove break_before_s", ThesisEdit::noBreakBefore},
+    ThesisDeviation{"eight-methods", "5.3.1",
+                    "drags by touch, tilts by the phone's sensor, answers on a second phone; scales as "
+                    "defined there",
+                    "drags by mouse or touch, tilts by keys or a phone over OSC, answers in a window; scales "
+                    "in our words",
+                    ""},
+};
+
 /// Version of the format that is written, and the newest that can be read.
 constexpr int protocolFormatVersion = 1;
 constexpr const char* protocolVersionField = "physvib_protocol";
@@ -56,7 +169,7 @@ std::string linkFault(const std::string& folder, const std::string& path);
 /// One of knownProtocols() by name, else that of a file, whose folder becomes `folder`. Message thread only.
 Result<Protocol> findProtocol(const std::string& nameOrPath);
 
-// Versions NAME-thesis of the built-in protocols, with all applicable changes of ThesisDeviations.h, so that
+// Versions NAME-thesis of the built-in protocols, with all applicable changes of thesisDeviations, so that
 // they run as published.
 
 /// One version per built-in protocol with an applicable change, as listed. Created on first use; any thread.

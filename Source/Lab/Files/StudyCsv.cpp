@@ -2,7 +2,6 @@
 // Readers for each kind of study table.
 #include "Lab/Files/StudyCsv.h"
 #include "Io/Text/CleanText.h"
-#include "Lab/Files/StudyTables.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/Stimulus.h"

@@ -5,7 +5,6 @@
 #include "Io/Result.h"
 #include "Lab/Files/StudyTables.h"
 #include "Lab/Study/Identification.h"
-#include "Lab/Study/PercentCounts.h"
 #include "Lab/Study/Places.h"
 #include "Lab/Study/Psychometric.h"
 #include "Lab/Study/Summaries.h"

@@ -4,12 +4,8 @@
 #include "Io/Disk/ContentHash.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
-#include "Io/Text/NumberText.h"
-#include "Lab/Files/TrialLog.h"
-#include "Lab/Study/PercentCounts.h"
-#include <algorithm>
+#include "Lab/Study/Identification.h"
 #include <iterator>
-#include <set>
 #include <sstream>
 
 namespace physvib {
@@ -222,15 +218,13 @@ Result<std::vector<ColumnName>> parseColumnNames(std::span<const std::string> wo
 }
 
 std::string unitFault(std::span<const ColumnName> names) {
-    for (const auto& [answered, truth] : {std::pair{"x", "target_x"}, {"y", "target_y"}, {"x", "y"}}) {
+    using Pair = std::pair<std::string, std::string>;
+    for (const auto& [answered, truth] : {Pair{"x", "target_x"}, {"y", "target_y"}, {"x", "y"}}) {
         const auto a = std::ranges::find(names, answered, &ColumnName::ours),
                    t = std::ranges::find(names, truth, &ColumnName::ours);
         if (a != names.end() && t != names.end() && a->range.has_value() != t->range.has_value())
-            return std::string{"--columns: expected a range of both "}
-                .append(answered)
-                .append(" and ")
-                .append(truth)
-                .append(", or of none of them, as they are compared");
+            return "--columns: expected a range of both " + answered + " and " + truth +
+                   ", or of none of them, as they are compared";
     }
     return {};
 }
@@ -331,10 +325,7 @@ std::string SharedParticipants::note() const {
     std::size_t shared = 0;
     for (const auto& [participant, tables] : tables_) {
         if (tables.size() < 2 || ++shared > mostNamed) continue;
-        words.append(shared > 1 ? "; " : "")
-            .append(cleanLine(participant))
-            .append(" in ")
-            .append(tablesOf(tables));
+        words += (shared > 1 ? "; " : "") + cleanLine(participant) + " in " + tablesOf(tables);
     }
     if (shared == 0) return {};
     if (shared > mostNamed) words += "; and " + std::to_string(shared - mostNamed) + " more";

@@ -4,10 +4,14 @@
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
+#include "Io/Json/JsonText.h"
 #include "Io/Text/CleanText.h"
-#include "Io/Text/CsvTable.h"
+#include "Io/Text/NameList.h"
+#include "Lab/Files/TrialLog.h"
+#include "Lab/Study/StudyTasks.h"
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 namespace physvib {
 
@@ -86,6 +90,120 @@ std::string keptScriptFault(const std::filesystem::path& path) {
     }
     return path.string() +
            ": expected no file, or the script as physvib wrote it; this one is somebody's work: rename it";
+}
+
+// Converts trial files to BIDS tables: one row per trial, with times under the column names of BIDS.
+
+const std::vector<EmbeddedFile>& embeddedScript(); // Source/Lab/Script
+
+namespace {
+
+/// Letters and digits only, as BIDS requires for labels.
+std::string labelOf(const std::string& code) {
+    std::string label;
+    for (const char c : code)
+        if ((c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z')) label += c;
+    return label.empty() ? "X" : label;
+}
+
+/// A TSV cell: without tabs and line ends; n/a if empty.
+std::string cellOf(const std::string& words) {
+    std::string cell = cleanLine(words);
+    std::ranges::replace(cell, '\t', ' ');
+    return cell.empty() ? "n/a" : cell;
+}
+
+/// What the columns of trial files mean, as BIDS has it.
+const OrderedJson& meanings() {
+    static const OrderedJson all =
+        OrderedJson::parse(std::ranges::find(embeddedScript(), "columns.json", &EmbeddedFile::name)->text);
+    return all;
+}
+
+std::string bidsName(const std::string& column) {
+    return column == "response_s" ? "response_time" : cellOf(column);
+}
+
+std::string sidecar(const CsvTable& trials, std::size_t participant, const BidsWords& words) {
+    OrderedJson json = {{"TaskName", words.task}, {"TaskDescription", words.name}};
+    for (std::size_t c = 0; c < trials.columns.size(); ++c) {
+        if (c == participant) continue;
+        const std::string& column = trials.columns[c];
+        OrderedJson& own = json[bidsName(column)];
+        if (const auto scale = words.columns.find(column); scale != words.columns.end())
+            own["Description"] = cellOf(scale->second);
+        else
+            own = meanings().value(column, OrderedJson{{"Description", "Column " + cellOf(column) +
+                                                                           " of the tables that were read"}});
+        if (column == trialColumns::task)
+            own["Description"] = own["Description"].get<std::string>() + listed(studyTaskNames, " or ");
+    }
+    return jsonLines(json);
+}
+
+std::string description(const BidsWords& words) {
+    OrderedJson json = {{"Name", words.name + (words.isSimulated ? " (SIMULATED: no person answered)" : "")},
+                        {"BIDSVersion", "1.8.0"},
+                        {"DatasetType", "raw"}};
+    json["GeneratedBy"] = OrderedJson::array({OrderedJson{{"Name", "physvib"}, {"Version", words.version}}});
+    for (const auto& [key, value] : words.source) json["PhysVib"][key] = value;
+    return jsonLines(json);
+}
+
+} // namespace
+
+std::string columnMeaning(std::string_view column) {
+    return meanings().at(std::string{column}).at("Description").get<std::string>();
+}
+
+std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const BidsWords& words) {
+    std::map<std::string, std::string> files;
+    const auto participant = trials.column("participant");
+    if (!participant) return files;
+    std::string header;
+    for (std::size_t c = 0; c < trials.columns.size(); ++c)
+        if (c != *participant) header.append(header.empty() ? "" : "\t").append(bidsName(trials.columns[c]));
+    const std::string task = labelOf(words.task);
+    std::vector<std::pair<std::string, std::string>> labels; // code, label
+    const auto observer = trials.column(trialColumns::observer);
+    std::string people = "participant_id\tcode\tobserver\n";
+    for (const CsvRow& row : trials.rows) {
+        const std::string& code = row.cells[*participant];
+        auto found = std::ranges::find(labels, code, &std::pair<std::string, std::string>::first);
+        if (found == labels.end()) {
+            std::string label = labelOf(code);
+            for (int number = 2;
+                 std::ranges::count(labels, label, &std::pair<std::string, std::string>::second) > 0;
+                 ++number)
+                label = labelOf(code) + "x" + std::to_string(number);
+            found = labels.insert(labels.end(), {code, label});
+            people += "sub-" + label + "\t" + cellOf(code) + "\t" +
+                      (observer ? cellOf(row.cells[*observer]) : "n/a") + "\n";
+        }
+        const std::string subject = "sub-" + found->second;
+        std::string& own = files[subject + "/beh/" + subject + "_task-" + task + "_beh.tsv"];
+        if (own.empty()) own = header + "\n";
+        bool isFirst = true;
+        for (std::size_t c = 0; c < trials.columns.size(); ++c) {
+            if (c == *participant) continue;
+            if (!std::exchange(isFirst, false)) own += '\t';
+            own += cellOf(row.cells[c]);
+        }
+        own += '\n';
+    }
+    files["participants.tsv"] = people;
+    files["participants.json"] = jsonLines(OrderedJson{
+        {"code",
+         {{"Description", "Code of the participant in the trial files; no other personal datum is kept"}}},
+        {"observer", meanings()["observer"]}});
+    files["dataset_description.json"] = description(words);
+    files["task-" + task + "_beh.json"] = sidecar(trials, *participant, words);
+    files["README"] = words.name +
+                      "\n\nBehaviour of a study with physvib: a row per trial, in the order in which it was "
+                      "done. Column meanings: task-" +
+                      task + "_beh.json.\n" +
+                      (words.isSimulated ? "SIMULATED: a simulated observer answered, not a person.\n" : "");
+    return files;
 }
 
 } // namespace physvib

@@ -3,6 +3,7 @@
 // reads the tables of a report; C++ only says which columns are rating scales.
 #pragma once
 #include "Io/Result.h"
+#include "Io/Text/CsvTable.h"
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -40,5 +41,24 @@ std::vector<std::string> testsIn(const std::string& table);
 /// Why the file there must not be replaced by a new script or notebook: it is none of ours, or was edited.
 /// Empty if it may be. Message thread only.
 std::string keptScriptFault(const std::filesystem::path& path);
+
+// Trials as a dataset of the Brain Imaging Data Structure (BIDS 1.8, without imaging), in memory.
+
+/// Description of a dataset.
+struct BidsWords {
+    std::string name, task;                      ///< of the study; the task has the protocol's name
+    std::string version;                         ///< of the program
+    std::map<std::string, std::string> source{}; ///< further facts, as keys and values
+    bool isSimulated = false;
+    std::map<std::string, std::string> columns{}; ///< what the scales of the protocol mean
+};
+
+/// Paths and contents of the dataset's files: dataset_description.json, participants.tsv,
+/// sub-CODE/beh/sub-CODE_task-NAME_beh.tsv, and descriptions of their columns. Precondition: `trials` has a
+/// column `participant`. Codes that differ only in hyphens get a number. Any thread (allocates).
+std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const BidsWords& words);
+
+/// What a column of our own trial files means. Any thread (allocates).
+std::string columnMeaning(std::string_view column);
 
 } // namespace physvib

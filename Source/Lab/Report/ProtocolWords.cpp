@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Writes the fields of a protocol by the table of Lab/Files/ProtocolFields.h, with their defaults.
-#include "Lab/Report/ProtocolWords.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFields.h"
 #include "Lab/Files/ProtocolFile.h"
+#include "Lab/Report/ReportBuilder.h"
 #include "Scene/ActuatorFile.h"
 #include "Scene/LayoutFile.h"
-#include <algorithm>
 #include <cmath>
 #include <set>
 #include <type_traits>

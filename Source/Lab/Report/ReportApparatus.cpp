@@ -3,15 +3,10 @@
 // exposure, orders of conditions.
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Analysis/Analysis.h"
 #include "Lab/Files/TrialLog.h"
-#include "Lab/Report/BidsDataset.h"
+#include "Lab/Report/AnalysisScript.h"
 #include "Lab/Report/ReportBuilder.h"
-#include "Lab/Study/Summaries.h"
-#include <algorithm>
 #include <array>
-#include <map>
-#include <set>
 
 namespace physvib {
 namespace {

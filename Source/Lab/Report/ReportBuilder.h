@@ -5,8 +5,8 @@
 #include "Io/Text/CsvTable.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
-#include "Lab/Report/ReportPage.h"
 #include "Lab/Report/ReportTrials.h"
+#include "Lab/Study/Protocol.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <cstddef>
@@ -16,6 +16,42 @@
 #include <vector>
 
 namespace physvib {
+
+// An HTML page without network access or scripts, for screen and A4. Text from files is escaped here.
+
+class ReportPage {
+public:
+    /// `mark` is shown below the title if it is not empty.
+    ReportPage(std::string title, bool isSimulated, std::string mark = {});
+
+    void heading(std::string_view words) { element("h2", words); }
+    void subheading(std::string_view words) { element("h3", words); }
+    void paragraph(std::string_view words) { element("p", words); }
+    void notes(const std::vector<std::string>& lines); ///< in one box
+    /// A warning, or why something is missing.
+    void note(std::string_view words) { notes({std::string(words)}); }
+    void lines(std::string_view words); ///< preformatted text, as `analyse` prints it
+    void list(const std::vector<std::string>& items) {
+        body_ += "<ul>\n";
+        for (const std::string& item : items) element("li", item);
+        body_ += "</ul>\n";
+    }
+    /// A table from CSV text with comments, of at most `mostRows` rows and the columns that have a value. A
+    /// folded table opens on a click and is not printed.
+    void table(std::string_view csv, std::string_view file, std::size_t mostRows = 60, bool isFolded = false);
+    /// Charts side by side with one caption.
+    void figure(const std::vector<std::string>& svgs, std::string_view caption);
+
+    /// The complete file.
+    std::string html() const;
+
+private:
+    void element(std::string_view tag, std::string_view words);
+    std::string title_, mark_, body_;
+    bool isSimulated_;
+    int figures_ = 0;
+};
+
 /// Name of the table of all trials.
 inline constexpr const char* trialsTable = "trials.csv";
 
@@ -133,5 +169,18 @@ void tellFunctions(ReportBuilder& report, const StudyData<LevelAnswer>& data, An
                    const std::string& name);
 /// Counts answers in words by stimulus; true if there are any.
 bool tellDescriptions(ReportBuilder& report);
+
+// A protocol's fields and their values, for the section on methods, and for plans. Any thread (allocates).
+
+// "layout phone1; stimuli grid; columns 3": each field that says something, by its name in files.
+std::string protocolWords(const Protocol& protocol); ///< without conditions and sessions
+std::string conditionWords(const ConditionPlan& condition);
+std::string sessionWords(const SessionPlan& session);
+
+/// What a score of that scale goes from and to, and the scale's sentence.
+std::string scoreWords(const SessionPlan& session, const std::string& scale);
+
+/// The full scale of each condition's layout, and whether it is calibrated: "phone1: 1 g, assumed".
+std::string fullScales(const Protocol& protocol);
 
 } // namespace physvib

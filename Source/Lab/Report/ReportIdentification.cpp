@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Report sections on identification (information transfer, percent correct) and on pointing.
 #include "Io/Text/NumberText.h"
-#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Study/Identification.h"
 #include "Lab/Study/Places.h"
-#include "Lab/Study/Summaries.h"
-#include <algorithm>
 
 namespace physvib {
 namespace {

@@ -2,15 +2,10 @@
 // Report sections on participants and procedure, for the methods section of a paper, from the study's files.
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Analysis/Analysis.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialLog.h"
-#include "Lab/Report/ProtocolWords.h"
 #include "Lab/Report/ReportBuilder.h"
-#include "Lab/Report/ReportTrials.h"
 #include "Lab/Study/StudyTasks.h"
-#include "Lab/Study/Summaries.h"
-#include <algorithm>
 #include <set>
 #include <tuple>
 

@@ -2,18 +2,13 @@
 // Combines trial files into one table and checks their first lines; reads the facts of people.
 #include "Lab/Report/ReportTrials.h"
 #include "Io/Text/CleanText.h"
-#include "Io/Text/CsvTable.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Analysis/Analysis.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Files/StudyTables.h"
-#include "Lab/Files/TrialLog.h"
 #include "Lab/Report/ReportBuilder.h"
-#include "Lab/Study/AdaptiveLevel.h"
+#include "Lab/Study/Experiment.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyTasks.h"
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <iterator>
@@ -38,7 +33,7 @@ std::vector<std::string> asked(const CsvTable& table) {
 }
 
 /// All rows with the union of all columns; missing cells are empty.
-CsvTable joined(const std::vector<TrialFile>& files) {
+CsvTable joinedRows(const std::vector<TrialFile>& files) {
     CsvTable all{"the trials", {}, asked(files.front().table), {}};
     for (const TrialFile& file : files)
         for (const std::string& column : file.table.columns)
@@ -97,8 +92,6 @@ std::string callsFault(const CsvTable& table, const CallCheck& callFault) {
 
 } // namespace
 
-bool ReportTrials::knowTasks() const { return all.column(trialColumns::task).has_value(); }
-
 std::string ReportTrials::common(const std::string& key) const {
     const std::string value = valueOf(files.front(), key);
     return std::ranges::all_of(files, [&](const TrialFile& file) { return valueOf(file, key) == value; })
@@ -133,7 +126,7 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
         trials.isSimulated |= saysSimulated(file.table);
         trials.files.push_back(std::move(file));
     }
-    trials.all = joined(trials.files);
+    trials.all = joinedRows(trials.files);
     const LeftRows left{trials.all};
     const auto notLeft = std::stable_partition(trials.all.rows.begin(), trials.all.rows.end(),
                                                [&](const CsvRow& row) { return !left.didNotLeave(row); });
@@ -220,16 +213,6 @@ constexpr double oldestYears = 130.0;
 
 } // namespace
 
-const PersonFacts* StudyFacts::person(std::string_view participant) const noexcept {
-    const auto found = std::ranges::find(people, participant, &PersonFacts::participant);
-    return found == people.end() ? nullptr : &*found;
-}
-
-bool StudyFacts::isExcluded(std::string_view participant) const noexcept {
-    const PersonFacts* const facts = person(participant);
-    return facts != nullptr && !facts->excluded.empty();
-}
-
 Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_view name) {
     auto read = readCsvTable(text, name, CsvHeader::named);
     if (!read) return Failure{read.error};
@@ -303,15 +286,6 @@ bool hasAdaptiveRows(const ReportTrials& trials) {
                       answerOf(cell(row, trialColumns::task)) == AnswerKind::choice &&
                       !cell(row, "correct").empty() && !cell(row, "level_db").empty();
            });
-}
-
-std::string UnfinishedRun::why() const {
-    return !cutShort.empty() ? cutShort : missing.empty() ? "not finished" : "lacks " + missing;
-}
-
-std::string UnfinishedRun::leftOut() const {
-    if (isOver || isTraining) return {};
-    return isAdaptive ? "threshold" : "tests that need what is lacking";
 }
 
 std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {

@@ -5,7 +5,6 @@
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"
 #include "Lab/Files/StudyTables.h"
-#include "Lab/Files/StudyTimes.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/Psychometric.h"
@@ -39,8 +38,14 @@ struct StudyFacts {
     bool operator==(const StudyFacts&) const = default;
 
     /// Null if the table has no such participant. Any thread.
-    const PersonFacts* person(std::string_view participant) const noexcept;
-    bool isExcluded(std::string_view participant) const noexcept;
+    const PersonFacts* person(std::string_view participant) const noexcept {
+        const auto found = std::ranges::find(people, participant, &PersonFacts::participant);
+        return found == people.end() ? nullptr : &*found;
+    }
+    bool isExcluded(std::string_view participant) const noexcept {
+        const PersonFacts* const facts = person(participant);
+        return facts != nullptr && !facts->excluded.empty();
+    }
 };
 
 /// A table with the column participant and any of age, sex, handedness, group, excluded; or one line
@@ -68,7 +73,7 @@ struct ReportTrials {
     StudyFacts facts{};                       ///< facts given by the user in addition to the trials
 
     /// True if rows have a task, as in our own files; tables of other programs have less information.
-    bool knowTasks() const;
+    bool knowTasks() const { return all.column(trialColumns::task).has_value(); }
     /// The value of a key if the first lines of all files agree; else empty.
     std::string common(const std::string& key) const;
 };
@@ -105,8 +110,15 @@ struct UnfinishedRun {
     bool isFixed = true;    ///< so many are planned
     std::string cutShort{}; ///< "a staircase ended at 40 trials with 5 of 6 reversals": nothing else is amiss
 
-    std::string why() const;     ///< "not finished", "lacks trials 3, 8 to 9", or cutShort
-    std::string leftOut() const; ///< "threshold", "tests that need what is lacking" or empty
+    /// "not finished", "lacks trials 3, 8 to 9", or cutShort
+    std::string why() const {
+        return !cutShort.empty() ? cutShort : missing.empty() ? "not finished" : "lacks " + missing;
+    }
+    /// "threshold", "tests that need what is lacking" or empty
+    std::string leftOut() const {
+        if (isOver || isTraining) return {};
+        return isAdaptive ? "threshold" : "tests that need what is lacking";
+    }
 };
 
 /// Of people who are not excluded; none without a protocol. Explorations end when people like. Any thread.

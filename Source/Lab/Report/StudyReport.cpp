@@ -6,16 +6,10 @@
 #include "Io/Provenance.h"
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NameList.h"
-#include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/TrialLog.h"
-#include "Lab/Report/AnalysisScript.h"
-#include "Lab/Report/BidsDataset.h"
-#include "Lab/Report/ProtocolWords.h"
-#include "Lab/Report/ReportBuilder.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyTasks.h"
-#include <algorithm>
 #include <set>
 
 namespace physvib {
@@ -251,23 +245,17 @@ void addBids(StudyReport& report, const ReportTrials& trials) {
     for (auto& [name, text] : bidsDataset(trials.all, words)) report.files["bids/" + name] = std::move(text);
 }
 
-Result<std::vector<std::pair<std::string, std::string>>> readTexts(const std::vector<std::string>& paths) {
-    std::vector<std::pair<std::string, std::string>> texts;
-    for (const std::string& path : paths) {
-        auto text = readFile(path, limits::maxTableBytes);
-        if (!text) return Failure{text.error};
-        texts.emplace_back(path, std::move(text.value));
-    }
-    return texts;
-}
-
 } // namespace
 
 Result<StudyReport> makeReport(const ReportJob& job, const std::optional<Protocol>& protocol,
                                const CallCheck& callFault, const ScriptRunner& script) {
-    const auto texts = readTexts(job.files);
-    if (!texts) return Failure{texts.error};
-    auto trials = readReportTrials(texts.value, job.columns, protocol, callFault);
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (const std::string& path : job.files) {
+        auto text = readFile(path, limits::maxTableBytes);
+        if (!text) return Failure{text.error};
+        texts.emplace_back(path, std::move(text.value));
+    }
+    auto trials = readReportTrials(texts, job.columns, protocol, callFault);
     if (!trials) return Failure{trials.error};
     for (std::size_t i = 0; i < job.files.size(); ++i) {
         auto times = loadStudyTimes(timesPathOf(job.files[i]));
@@ -365,13 +353,6 @@ std::string simulatedFile(const Protocol& protocol, int number) {
     return text;
 }
 
-Result<ReportTrials> simulatedTrials(const Protocol& protocol, int participants) {
-    std::vector<std::pair<std::string, std::string>> files;
-    for (int number = 1; number <= std::min(participants, mostSimulated); ++number)
-        files.emplace_back(codeOf(number), simulatedFile(protocol, number));
-    return readReportTrials(files, {}, protocol);
-}
-
 /// As a table of people does that names two groups.
 void takeTwoGroups(ReportTrials& trials, int participants) {
     StudyFacts facts;
@@ -463,7 +444,10 @@ std::string measuresOf(const Protocol& protocol, int participants, const StudyRe
 } // namespace
 
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script) {
-    auto trials = simulatedTrials(protocol, participants);
+    std::vector<std::pair<std::string, std::string>> files;
+    for (int number = 1; number <= std::min(participants, mostSimulated); ++number)
+        files.emplace_back(codeOf(number), simulatedFile(protocol, number));
+    auto trials = readReportTrials(files, {}, protocol);
     if (!trials) return Failure{trials.error};
     auto report = studyReport(trials.value, script);
     if (!report.scriptFault.empty()) return Failure{report.scriptFault};

@@ -3,11 +3,21 @@
 // Steps: 1. Solve (C^H C + lambda) D = C^H. 2. Compute the strongest drive of D over all gains from 0 to 1.
 // 3. If it exceeds the limit, find the smallest lambda within it by bisection of log lambda.
 #include "Lab/Study/Coupling.h"
+#include "Core/Limits.h"
 #include "Core/Units.h"
+#include "Io/Disk/ReadFile.h"
+#include "Io/Json/JsonField.h"
+#include "Io/Json/JsonText.h"
+#include "Io/Text/NumberText.h"
+#include "Lab/Files/StudyTables.h"
+#include "Lab/Study/Summaries.h"
+#include "Scene/SceneLimits.h"
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
+#include <tuple>
 
 namespace physvib {
 namespace {
@@ -129,6 +139,172 @@ double combinedAttenuation(std::span<const double> ratios) {
     double sum = 0.0;
     for (const double ratio : ratios) sum += ratio * ratio;
     return std::sqrt(sum);
+}
+
+// Reads and writes coupling files, checking every number, because the file drives actuators that people hold.
+
+namespace {
+
+constexpr const char* couplingVersionField = "physvib_coupling";
+constexpr double mostShare = 4.0; // in full scales; larger values indicate a wrong unit
+constexpr std::size_t mostFrequencies = 256;
+
+std::size_t sizeOf(const JsonField& rows, std::size_t least, std::size_t most) {
+    const std::size_t size = rows.arraySize();
+    if (size < least || size > most)
+        rows.fail(
+            "expected " +
+            (least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most)) +
+            " items, found " + std::to_string(size));
+    return size;
+}
+
+/// Calls `take(i, j, number)` for each entry of a square matrix of `size`.
+template <class Take>
+void readSquare(const JsonField& rows, std::size_t size, double least, double most, Take take) {
+    sizeOf(rows, size, size);
+    for (std::size_t i = 0; i < size; ++i) {
+        const JsonField row = rows.item(i);
+        sizeOf(row, size, size);
+        for (std::size_t j = 0; j < size; ++j) take(i, j, row.item(j).numberWithin(least, most));
+    }
+}
+
+CouplingMatrix readMatrix(const JsonField& json) {
+    const JsonField magnitudes = json["magnitude"];
+    CouplingMatrix matrix(sizeOf(magnitudes, 1, limits::maxEnchanters));
+    readSquare(magnitudes, matrix.size, 0.0, mostShare,
+               [&](std::size_t i, std::size_t j, double share) { matrix.at(i, j) = share; });
+    readSquare(json["phase_deg"], matrix.size, -360.0, 360.0,
+               [&](std::size_t i, std::size_t j, double degrees) {
+                   matrix.at(i, j) *= std::polar(1.0, degrees * std::numbers::pi / 180.0);
+               });
+    for (std::size_t i = 0; i < matrix.size; ++i)
+        if (!(std::abs(matrix.at(i, i)) > 0.0))
+            magnitudes.item(i).item(i).fail("expected an enchanter that moves by its own drive, found 0");
+    return matrix;
+}
+
+MeasuredCoupling readCouplingRoot(const JsonField& root) {
+    checkVersion(root, couplingVersionField, couplingFormatVersion);
+    root.expectObject({couplingVersionField, "name", "source", "measured"});
+    root["name"].text();
+    root["source"].text();
+    const JsonField measured = root["measured"];
+    MeasuredCoupling coupling;
+    for (std::size_t k = 0, count = sizeOf(measured, 1, mostFrequencies); k < count; ++k) {
+        const JsonField json = measured.item(k);
+        json.expectObject({"frequency_hz", "magnitude", "phase_deg"});
+        const double hz = json["frequency_hz"].numberWithin(limits::leastMeasuredHz, limits::maxFrequencyHz);
+        if (k > 0 && !(hz > coupling.frequenciesHz.back()))
+            json["frequency_hz"].fail("expected frequencies that rise, found " + numberText(hz) + " after " +
+                                      numberText(coupling.frequenciesHz.back()));
+        coupling.frequenciesHz.push_back(hz);
+        coupling.matrices.push_back(readMatrix(json));
+        if (const std::size_t size = coupling.matrices.back().size; size != coupling.enchanters())
+            json["magnitude"].fail("expected as many enchanters as at the first frequency, " +
+                                   std::to_string(coupling.enchanters()) + ", found " + std::to_string(size));
+    }
+    return coupling;
+}
+
+} // namespace
+
+Result<MeasuredCoupling> readCoupling(std::string_view text, std::string_view name) {
+    return readJson(text, name, limits::maxCouplingFileBytes,
+                    [](const Json& root) { return readCouplingRoot(JsonField(root, {})); });
+}
+
+std::string couplingJson(const MeasuredCoupling& coupling, const std::string& name,
+                         const std::string& source) {
+    OrderedJson root = {{couplingVersionField, couplingFormatVersion},
+                        {"name", name},
+                        {"source", source},
+                        {"measured", OrderedJson::array()}};
+    for (std::size_t k = 0; k < coupling.matrices.size(); ++k) {
+        const auto squareOf = [&matrix = coupling.matrices[k]](auto number) {
+            OrderedJson rows = OrderedJson::array();
+            for (std::size_t i = 0; i < matrix.size; ++i) {
+                OrderedJson row = OrderedJson::array();
+                for (std::size_t j = 0; j < matrix.size; ++j) row.push_back(number(matrix.at(i, j)));
+                rows.push_back(std::move(row));
+            }
+            return rows;
+        };
+        root["measured"].push_back(
+            {{"frequency_hz", coupling.frequenciesHz[k]},
+             {"magnitude", squareOf([](std::complex<double> c) { return std::abs(c); })},
+             {"phase_deg",
+              squareOf([](std::complex<double> c) { return std::arg(c) * 180.0 / std::numbers::pi; })}});
+    }
+    return jsonLines(root);
+}
+
+Result<MeasuredCoupling> loadCoupling(const std::filesystem::path& path) {
+    return loadText(path, limits::maxCouplingFileBytes, readCoupling);
+}
+
+// Groups isolation recordings: repetitions share a condition, and layers share the reference of their drive.
+
+namespace {
+
+using Levels = std::vector<double>;
+
+/// Mean levels of the reference recordings of one drive.
+struct GammaSums {
+    Levels levels;
+    std::size_t count = 0;
+    bool areAlike = true; ///< all have the same number of channels
+};
+using Drive = std::tuple<std::string, std::string, double>;
+
+Drive driveOf(const IsolationCondition& c) { return {c.axis, c.voltage, c.frequencyHz}; }
+
+std::map<Drive, GammaSums> referencesIn(const std::vector<IsolationMeasurement>& measurements) {
+    std::map<Drive, GammaSums> references;
+    for (const IsolationMeasurement& m : measurements) {
+        if (!m.isReference) continue;
+        GammaSums& sums = references[driveOf(m.condition)];
+        if (sums.count++ == 0) sums.levels.assign(m.levels.size(), 0.0);
+        sums.areAlike &= sums.levels.size() == m.levels.size();
+        for (std::size_t i = 0; i < std::min(sums.levels.size(), m.levels.size()); ++i)
+            sums.levels[i] += m.levels[i];
+    }
+    for (auto& [drive, sums] : references)
+        for (double& level : sums.levels) level /= static_cast<double>(sums.count);
+    return references;
+}
+
+} // namespace
+
+IsolationStudy summariseIsolation(const std::vector<IsolationMeasurement>& measurements) {
+    const auto references = referencesIn(measurements);
+    std::map<std::tuple<std::string, std::string, std::string, Drive>, IsolationResult> results;
+    for (const IsolationMeasurement& m : measurements) {
+        if (m.isReference) continue;
+        const auto reference = references.find(driveOf(m.condition));
+        if (reference == references.end() || !reference->second.areAlike ||
+            reference->second.levels.size() != m.levels.size())
+            return {
+                m.source +
+                    ": expected a reference of the same frequency, voltage and axis, with as many channels",
+                {}};
+        if (std::ranges::any_of(reference->second.levels, [](double level) { return !(level > 0.0); }))
+            return {m.source + ": expected a reference that vibrates on every channel", {}};
+        IsolationResult& result = results[{m.condition.material, m.condition.softener, m.condition.thickness,
+                                           driveOf(m.condition)}];
+        result.condition = m.condition;
+        result.gammas.push_back(combinedAttenuation(attenuationRatios(m.levels, reference->second.levels)));
+    }
+    if (results.empty()) return {"expected recordings behind a layer, found none", {}};
+    IsolationStudy study;
+    for (auto& [key, result] : results) {
+        const Moments moments{result.gammas};
+        result.mean = moments.mean;
+        result.deviation = moments.deviation;
+        study.results.push_back(std::move(result));
+    }
+    return study;
 }
 
 } // namespace physvib

@@ -3,9 +3,13 @@
 // measures (Eq. 3.1, 3.2).
 #pragma once
 #include "Core/Actuators/DriveMatrices.h"
+#include "Io/Result.h"
 #include "Stimuli/SeededRandom.h"
 #include <complex>
+#include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
@@ -85,5 +89,53 @@ std::vector<double> attenuationRatios(std::span<const double> isolated, std::spa
 
 /// Eq. 3.2: root of the sum of squares. It can exceed 1 (three axes of 0.9 give 1.56).
 double combinedAttenuation(std::span<const double> ratios);
+
+// JSON files of the measured coupling between actuators.
+
+/// Newest readable version of the format.
+constexpr int couplingFormatVersion = 1;
+
+/// Parses square matrices of 1 to limits::maxEnchanters rows, with magnitudes in full scales and phases in
+/// degrees. Otherwise one line `name: measured[0].phase_deg[1][2]: expected ...`. Unknown and repeated fields
+/// are errors. Any thread.
+Result<MeasuredCoupling> readCoupling(std::string_view text, std::string_view name);
+
+/// Reads a file with readCoupling(). Message thread only.
+Result<MeasuredCoupling> loadCoupling(const std::filesystem::path& path);
+
+/// `coupling` as JSON; readCoupling() restores it except for the last bits of its phases. Any thread.
+std::string couplingJson(const MeasuredCoupling& coupling, const std::string& name,
+                         const std::string& source);
+
+// Isolation study (thesis 3.1.1): the vibration attenuation of damping layers, by condition.
+
+/// A layer and its drive signal. All but the frequency are labels that are compared, not computed with.
+struct IsolationCondition {
+    std::string material, softener, thickness; ///< of the layer; a reference has none
+    std::string voltage, axis;                 ///< of the drive
+    double frequencyHz = 0.0;
+};
+
+/// One recording: a level per axis of the accelerometer.
+struct IsolationMeasurement {
+    IsolationCondition condition;
+    bool isReference = false; ///< without a layer
+    std::vector<double> levels;
+    std::string source; ///< the file, for messages
+};
+
+struct IsolationResult {
+    IsolationCondition condition;
+    std::vector<double> gammas;         ///< Eq. 3.2 of each repetition against the drive's mean reference
+    double mean = 0.0, deviation = 0.0; ///< of `gammas`; sample standard deviation, 0 for one value
+};
+
+struct IsolationStudy {
+    std::string fault;                    ///< error in one line; if set, the results are invalid
+    std::vector<IsolationResult> results; ///< sorted: material, softener, thickness, axis, voltage, frequency
+};
+
+/// Any thread (allocates).
+IsolationStudy summariseIsolation(const std::vector<IsolationMeasurement>& measurements);
 
 } // namespace physvib

@@ -2,7 +2,6 @@
 // Runs conditions, their sessions and their trials in order; all random orders derive from the seed.
 #include "Lab/Study/Experiment.h"
 #include "Core/Units.h"
-#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -23,31 +22,6 @@ bool isOnField(const std::optional<FieldPlace>& place) noexcept {
 TrialProgress::TrialProgress(const SessionPlan& session, const Trial& trial)
     : session_{session}
     , parts_(session.isOnce ? 0 : std::max<std::size_t>(1, trial.parts.size())) {}
-
-bool TrialProgress::canPlay(std::size_t part) const noexcept {
-    return part < parts_.size() && (session_.mostPlays == 0 || parts_[part].plays < session_.mostPlays);
-}
-
-void TrialProgress::played(std::size_t part) noexcept {
-    ++parts_[part].plays;
-    parts_[part].isOwed = false;
-}
-
-void TrialProgress::lost(std::size_t part) noexcept {
-    Part& own = parts_[part];
-    --own.plays;
-    own.seconds = 0.0;
-    own.isOwed = true;
-    ++again_;
-}
-
-void TrialProgress::spent(std::size_t part, double seconds) noexcept { parts_[part].seconds += seconds; }
-
-bool TrialProgress::canAnswer() const noexcept {
-    return std::ranges::all_of(parts_, [this](const Part& p) {
-        return p.plays > 0 && !p.isOwed && p.seconds >= session_.leastSeconds;
-    });
-}
 
 int TrialProgress::plays() const noexcept {
     return std::accumulate(parts_.begin(), parts_.end(), 0,
@@ -86,21 +60,6 @@ bool Experiment::isSessionOver() const {
     if (plan().untilCorrect > 0 && inARow_ >= plan().untilCorrect) return true;
     if (plan().answer() != AnswerKind::wish) return inSession_ >= static_cast<int>(order_.size());
     return isEnded_ || (!explorersEnd_ && hasExplored());
-}
-
-bool Experiment::hasExplored() const {
-    return plan().fewestTouches > 0 ? inSession_ >= plan().fewestTouches : explored_.size() >= items_.size();
-}
-
-void Experiment::endSession() {
-    isEnded_ = true;
-    advance();
-}
-
-int Experiment::sessionTrials() const noexcept {
-    if (adaptive_) return adaptive_->trials();
-    return plan().answer() == AnswerKind::wish || plan().untilCorrect > 0 ? 0
-                                                                          : static_cast<int>(order_.size());
 }
 
 void Experiment::advance() {
@@ -380,6 +339,78 @@ std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record
     }
     if (jobs.empty()) add({{}, 0.0});
     return jobs;
+}
+
+// Computes balanced Latin squares and shuffled orders.
+
+namespace {
+
+/// Indices of the conditions of each group, groups in the order of their first condition. A condition without
+/// a group forms its own.
+std::vector<std::vector<std::size_t>> groupsOf(const Protocol& protocol) {
+    std::vector<std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < protocol.conditions.size(); ++i) {
+        const std::string& name = protocol.conditions[i].group;
+        const auto found = std::ranges::find_if(groups, [&](const auto& g) {
+            return !name.empty() && protocol.conditions[g.front()].group == name;
+        });
+        if (found == groups.end())
+            groups.push_back({i});
+        else
+            found->push_back(i);
+    }
+    return groups;
+}
+
+} // namespace
+
+std::vector<std::size_t> latinSquareRow(std::size_t count, std::size_t row) {
+    std::vector<std::size_t> order;
+    const std::size_t shift = row % std::max<std::size_t>(count, 1);
+    for (std::size_t i = 0; i < count; ++i) { // 0, 1, n-1, 2, n-2, ... shifted
+        const std::size_t zigzag = i % 2 ? (i + 1) / 2 : (count - i / 2) % count;
+        order.push_back((zigzag + shift) % count);
+    }
+    // with an odd count, the square and its mirror image are balanced together
+    if (count % 2 && row / count % 2) std::ranges::reverse(order);
+    return order;
+}
+
+std::vector<std::size_t> conditionOrder(const Protocol& protocol, int number) {
+    const auto groups = groupsOf(protocol);
+    const auto row = static_cast<std::size_t>(number - 1);
+    std::vector<std::size_t> order;
+    if (protocol.conditionOrder == Protocol::ConditionOrder::latinSquare) {
+        // Participants with the same order of groups rotate through the orders inside the groups.
+        for (const std::size_t g : latinSquareRow(groups.size(), row))
+            for (const std::size_t c :
+                 latinSquareRow(groups[g].size(), groups.size() > 1 ? row / groups.size() : row))
+                order.push_back(groups[g][c]);
+        return order;
+    }
+    order.resize(protocol.conditions.size());
+    std::iota(order.begin(), order.end(), 0u);
+    SeededRandom random{static_cast<std::uint64_t>(protocol.seed), "conditions of " + std::to_string(number)};
+    if (protocol.conditionOrder == Protocol::ConditionOrder::random) random.shuffle(order);
+    return order;
+}
+
+std::vector<PlannedTrial> sessionOrder(const SessionPlan& session, std::size_t stimuli,
+                                       SeededRandom& random) {
+    std::vector<PlannedTrial> all;
+    for (int repetition = 0; repetition < session.repetitions; ++repetition) {
+        std::vector<PlannedTrial> block;
+        for (std::size_t s = 0; s < stimuli; ++s) {
+            const bool isOfTwo = session.comparesPairs ||
+                                 (session.alternatives.size() == 2 && session.answer() == AnswerKind::choice);
+            block.push_back({s, !session.bothOrders && isOfTwo && random.chance(0.5)});
+            if (session.bothOrders) block.push_back({s, true});
+        }
+        if (session.order == SessionPlan::Order::blocks) random.shuffle(block);
+        all.insert(all.end(), block.begin(), block.end());
+    }
+    if (session.order == SessionPlan::Order::random) random.shuffle(all);
+    return all;
 }
 
 } // namespace physvib

@@ -3,12 +3,12 @@
 // user interface or a simulated observer drives it. Recorded answers can be replayed, so an interrupted study
 // resumes where it stopped.
 #pragma once
-#include "Lab/Study/AdaptiveLevel.h"
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/Stimulus.h"
-#include "Lab/Study/StudyOrder.h"
 #include "Stimuli/SeededRandom.h"
 #include "Stimuli/Stimulus.h"
+#include <algorithm>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <set>
@@ -18,6 +18,152 @@
 #include <vector>
 
 namespace physvib {
+
+// Orders of conditions and trials: balanced by Latin squares, or random from the seed.
+
+/// Row `row` of a balanced Latin square (Williams 1949) over 0 to count - 1. Within `count` rows (twice as
+/// many if `count` is odd) each item has each position, and follows each other item, equally often. Any
+/// thread (allocates).
+std::vector<std::size_t> latinSquareRow(std::size_t count, std::size_t row);
+
+/// Conditions in the order of participant `number` (from 1). Groups use one square, conditions within a group
+/// another. Any thread (allocates).
+std::vector<std::size_t> conditionOrder(const Protocol& protocol, int number);
+
+/// A trial of a planned order: its stimulus, and whether its two alternatives are swapped.
+struct PlannedTrial {
+    std::size_t stimulus = 0;
+    bool isSwapped = false;
+};
+
+/// All trials of a session with fixed levels. Any thread (allocates).
+std::vector<PlannedTrial> sessionOrder(const SessionPlan& session, std::size_t stimuli, SeededRandom& random);
+
+// Stimulus level controlled by the participant's answers, with a transformed up-down staircase or QUEST+ as
+// the session specifies.
+
+// Transformed up-down staircase (Levitt 1971): converges to the level at which a run of `down` correct
+// answers has probability one half.
+
+class Staircase {
+public:
+    explicit Staircase(const StaircasePlan& plan)
+        : Staircase{plan, plan.startDb} {}
+    Staircase(const StaircasePlan& plan, double startDb)
+        : plan_{plan}
+        , levelDb_{startDb}
+        , stepDb_{plan.stepDb} {}
+
+    double levelDb() const noexcept { return levelDb_; }
+    bool isDone() const noexcept {
+        return trials_ >= plan_.mostTrials || static_cast<int>(reversals_.size()) >= plan_.reversals;
+    }
+
+    void answer(bool isCorrect) {
+        ++trials_;
+        if (isCorrect && ++inARow_ < plan_.down) return;
+        inARow_ = 0;
+        const int direction = isCorrect ? -1 : 1;
+        if (lastDirection_ != 0 && direction != lastDirection_) {
+            reversals_.push_back(levelDb_);
+            stepDb_ = std::max(plan_.leastStepDb, 0.5 * stepDb_);
+        }
+        lastDirection_ = direction;
+        levelDb_ = std::clamp(levelDb_ + (direction > 0 ? plan_.upRatio : -1.0) * stepDb_, plan_.leastDb,
+                              plan_.mostDb);
+    }
+
+    const std::vector<double>& reversals() const noexcept { return reversals_; }
+    /// "ended at 40 trials with 5 of 6 reversals"; else empty.
+    std::string cutShort() const {
+        const int found = static_cast<int>(reversals_.size());
+        return !isDone() || found >= plan_.reversals
+                   ? std::string{}
+                   : "ended at " + std::to_string(plan_.mostTrials) + " trials with " +
+                         std::to_string(found) + " of " + std::to_string(plan_.reversals) + " reversals";
+    }
+
+private:
+    StaircasePlan plan_;
+    double levelDb_, stepDb_;
+    int trials_ = 0, inARow_ = 0, lastDirection_ = 0;
+    std::vector<double> reversals_;
+};
+
+/// A QUEST+ run that ends after its number of trials or at its target precision.
+class QuestTrials {
+public:
+    QuestTrials(const QuestMethod& method, double guess)
+        : quest_{questPlan(method, guess)}
+        , trials_{method.trials}
+        , deviationDb_{method.deviationDb} {}
+
+    double levelDb() const noexcept { return quest_.level(); }
+    bool isDone() const {
+        return quest_.trials() >= trials_ ||
+               (deviationDb_ > 0.0 && quest_.thresholdDeviation() <= deviationDb_);
+    }
+    void answer(bool isCorrect) { quest_.answer(isCorrect); }
+    int trials() const noexcept { return deviationDb_ > 0.0 ? 0 : trials_; }
+
+private:
+    QuestPlus quest_;
+    int trials_;
+    double deviationDb_;
+};
+
+/// One QUEST+, or staircases whose trials are mixed. Not thread-safe: use from one thread at a time.
+class AdaptiveLevel {
+public:
+    /// Precondition: `session` has a staircase or QUEST+.
+    explicit AdaptiveLevel(const SessionPlan& session) {
+        if (session.quest) methods_.emplace_back(QuestTrials{*session.quest, session.guessRate()});
+        if (session.staircase)
+            for (const double startDb : session.staircase->starts())
+                methods_.emplace_back(Staircase{*session.staircase, startDb});
+    }
+
+    double levelDb() const {
+        return std::visit([](const auto& m) { return m.levelDb(); }, methods_[at_]);
+    }
+    bool isDone() const { return std::ranges::all_of(methods_, isOver); }
+    /// Of staircases that ended before their reversals; else empty.
+    std::string cutShort() const {
+        std::string words;
+        for (std::size_t i = 0; i < methods_.size(); ++i)
+            if (const auto* const one = std::get_if<Staircase>(&methods_[i]); one && !one->cutShort().empty())
+                words += (words.empty() ? "" : "; ") +
+                         (methods_.size() > 1 ? "staircase " + std::to_string(i + 1) : "the staircase") +
+                         " " + one->cutShort();
+        return words;
+    }
+    void answer(bool isCorrect) {
+        std::visit([=](auto& m) { m.answer(isCorrect); }, methods_[at_]);
+    }
+    /// The next answer is of that staircase, from 0; of the last if there are not as many.
+    void choose(std::size_t staircase) noexcept { at_ = std::min(staircase, methods_.size() - 1); }
+    /// Chooses one that is not over, at random; its number from 1, or 0 if there is only one. Precondition:
+    /// !isDone().
+    std::size_t draw(SeededRandom& random) {
+        if (methods_.size() == 1) return 0;
+        do at_ = random.below(methods_.size());
+        while (isOver(methods_[at_]));
+        return at_ + 1;
+    }
+    /// Number of trials in the run; 0 if the answers decide when it ends.
+    int trials() const noexcept {
+        const auto* const quest = std::get_if<QuestTrials>(&methods_.front());
+        return quest == nullptr ? 0 : quest->trials();
+    }
+
+private:
+    using Method = std::variant<Staircase, QuestTrials>;
+    static bool isOver(const Method& method) {
+        return std::visit([](const auto& m) { return m.isDone(); }, method);
+    }
+    std::vector<Method> methods_;
+    std::size_t at_ = 0;
+};
 
 // One trial: its stimulus, its answer, and the jobs that reproduce it.
 
@@ -47,7 +193,7 @@ struct Apparatus {
     double masterDb = 0.0;           ///< the mixer's level
     std::optional<double> noiseDb{}; ///< root mean square of pink noise on headphones, dB of full scale
     std::string outputs{}, noiseOutputs{}, language{}; ///< "1 2 3 4", "5 6", "ko"; not in rows but in the
-                                                       ///< file of times, see StudyTimes.h
+                                                       ///< file of times, see TrialLog.h
     bool operator==(const Apparatus&) const = default;
 };
 
@@ -114,15 +260,30 @@ public:
     TrialProgress(const SessionPlan& session, const Trial& trial);
 
     /// True if `part` may be played (again).
-    bool canPlay(std::size_t part) const noexcept;
-    void played(std::size_t part) noexcept;
+    bool canPlay(std::size_t part) const noexcept {
+        return part < parts_.size() && (session_.mostPlays == 0 || parts_[part].plays < session_.mostPlays);
+    }
+    void played(std::size_t part) noexcept {
+        ++parts_[part].plays;
+        parts_[part].isOwed = false;
+    }
     /// The play of `part` that was counted last did not leave: it does not count, and the part is to be felt
     /// again before an answer.
-    void lost(std::size_t part) noexcept;
+    void lost(std::size_t part) noexcept {
+        Part& own = parts_[part];
+        --own.plays;
+        own.seconds = 0.0;
+        own.isOwed = true;
+        ++again_;
+    }
     /// Adds time spent with `part`.
-    void spent(std::size_t part, double seconds) noexcept;
+    void spent(std::size_t part, double seconds) noexcept { parts_[part].seconds += seconds; }
     /// True if every part was played, none is to be felt again, and each had its minimum time.
-    bool canAnswer() const noexcept;
+    bool canAnswer() const noexcept {
+        return std::ranges::all_of(parts_, [this](const Part& p) {
+            return p.plays > 0 && !p.isOwed && p.seconds >= session_.leastSeconds;
+        });
+    }
     int plays() const noexcept;
     int again() const noexcept { return again_; } ///< plays that were lost
     int plays(std::size_t part) const noexcept { return parts_[part].plays; }
@@ -166,12 +327,20 @@ public:
     /// True if the current exploration may end because enough was felt.
     bool mayEnd() const { return trial_ && session().answer() == AnswerKind::wish && hasExplored(); }
     /// Starts the next session. Precondition: mayEnd().
-    void endSession();
+    void endSession() {
+        isEnded_ = true;
+        advance();
+    }
 
     int trialsTaken() const noexcept { return taken_; }
 
     /// Trials of the current session; 0 if answers decide (a staircase, an open exploration).
-    int sessionTrials() const noexcept;
+    int sessionTrials() const noexcept {
+        if (adaptive_) return adaptive_->trials();
+        return plan().answer() == AnswerKind::wish || plan().untilCorrect > 0
+                   ? 0
+                   : static_cast<int>(order_.size());
+    }
 
     /// Number of the current session among those of all conditions, from 1, in this participant's order.
     int sessionNumber() const noexcept {
@@ -189,7 +358,10 @@ private:
     void beginSession();
     void advance();
     bool isSessionOver() const;
-    bool hasExplored() const;
+    bool hasExplored() const {
+        return plan().fewestTouches > 0 ? inSession_ >= plan().fewestTouches
+                                        : explored_.size() >= items_.size();
+    }
     Trial nextTrial();
     double startOf(const Adjustment& adjustment, int trial) const;
     void addAlternatives(Trial& trial, bool isSwapped);

@@ -2,7 +2,7 @@
 // Pointing responses: a normal distribution per target of a grid, the map of the most likely target at every
 // place (thesis 4.2, Eq. 4.4 and 4.5), and errors at targets anywhere.
 #pragma once
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include <cstddef>
 #include <cstdint>
 #include <string>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Validates a protocol as a whole, and lists the stimuli of its conditions.
 #include "Lab/Study/Protocol.h"
+#include "Io/Text/NumberText.h"
 #include "Lab/Study/Experiment.h"
-#include <algorithm>
 #include <cmath>
 
 namespace physvib {
@@ -368,10 +368,6 @@ std::string validate(const Protocol& p) {
     return {};
 }
 
-double StudyVariable::at(double levelDb) const noexcept {
-    return std::round(at0Db * std::pow(10.0, 0.05 * levelDb) * 1e6) * 1e-6; // short text, as of levels
-}
-
 std::string picturePath(const MaterialPictureFile& picture, const std::string& participant) {
     std::string path = picture.file;
     replaceAll(path, "{participant}", participant);
@@ -406,10 +402,10 @@ std::string callOf(const CallSet& set, const StimulusItem& item, const std::stri
     }
     replaceAll(words, "{alternative}", part);
     replaceAll(words, "{object}", part);
-    replaceAll(words, "{level_db}", numberWord(levelDb));
+    replaceAll(words, "{level_db}", numberText(levelDb));
     for (const StudyVariable& variable : set.variables)
         replaceAll(words, "{" + variable.name + "}",
-                   numberWord(variable.at(variable.roves ? roveDb : levelDb)));
+                   numberText(variable.at(variable.roves ? roveDb : levelDb)));
     return words;
 }
 

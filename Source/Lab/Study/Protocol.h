@@ -3,16 +3,14 @@
 // and the check of the calls that it contains.
 #pragma once
 #include "Core/Actuators/Exposure.h"
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/Stimulus.h"
 #include "Lab/Study/StudyTasks.h"
 #include "Stimuli/PinkNoise.h"
-#include "Stimuli/PulsePattern.h"
 #include "Stimuli/Stimulus.h"
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <functional>
 #include <optional>
 #include <set>
@@ -56,7 +54,9 @@ struct StudyVariable {
     double at0Db = 1.0;
     bool roves = false; ///< follows a trial's rove_db instead, which then moves nothing else
     bool operator==(const StudyVariable&) const = default;
-    double at(double levelDb) const noexcept;
+    double at(double levelDb) const noexcept {
+        return std::round(at0Db * std::pow(10.0, 0.05 * levelDb) * 1e6) * 1e-6; // short text, as of levels
+    }
 };
 
 /// Stimuli made by calls of `physvib`: every combination of the factors' values replaces {name} in `call`.
@@ -336,14 +336,6 @@ inline std::string callFault(std::string_view call) {
         }
     }
     return {};
-}
-
-// Locale-independent text of numbers in calls and trial files.
-
-/// The shortest text that parses to exactly the same value, in every locale. Any thread (allocates).
-inline std::string numberWord(double number) {
-    char digits[32]; // the shortest form of a double has at most 24 characters
-    return {digits, std::to_chars(digits, digits + sizeof digits, number).ptr};
 }
 
 } // namespace physvib

@@ -8,7 +8,6 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numbers>
 #include <numeric>

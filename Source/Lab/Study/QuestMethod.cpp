@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <vector>
 
 namespace physvib {
 namespace {
@@ -42,8 +41,8 @@ std::string questFault(const QuestMethod& m) {
     if (!(m.leastDb < m.mostDb)) return ": expected least_db < most_db";
     if (!(m.leastWidthDb <= m.mostWidthDb)) return ": expected least_width_db <= most_width_db";
     if (const double levels = levelCount(m); !(levels <= mostLevels))
-        return ".step_db: expected at most " + numberWord(mostLevels) + " levels, found " +
-               numberWord(levels);
+        return ".step_db: expected at most " + numberText(mostLevels) + " levels, found " +
+               numberText(levels);
     return {};
 }
 
@@ -59,9 +58,9 @@ QuestPlan questPlan(const QuestMethod& m, double guess) {
 
 std::string questWords(const QuestMethod& m, double guess) {
     return std::string(psychometricShapeNames[static_cast<std::size_t>(m.shape)]) + " guess " +
-           numberWord(guess) + " lapse " + numberWord(m.lapse) + " levels_db " + numberWord(m.leastDb) + ' ' +
-           numberWord(m.stepDb) + ' ' + numberWord(m.mostDb) + " widths_db " + numberWord(m.leastWidthDb) +
-           ' ' + numberWord(m.mostWidthDb);
+           numberText(guess) + " lapse " + numberText(m.lapse) + " levels_db " + numberText(m.leastDb) + ' ' +
+           numberText(m.stepDb) + ' ' + numberText(m.mostDb) + " widths_db " + numberText(m.leastWidthDb) +
+           ' ' + numberText(m.mostWidthDb);
 }
 
 std::optional<QuestPlan> questPlan(std::string_view text) {

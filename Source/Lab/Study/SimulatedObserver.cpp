@@ -53,6 +53,166 @@ double comparedLevelDb(const SessionPlan& session) {
     return 0.0;
 }
 
+/// The answer to one trial: the model of each task, and the random numbers of the trial.
+struct Response {
+    const ObserverSettings& settings;
+    const SessionPlan& session;
+    const ConditionPlan& condition;
+    const Trial& trial;
+    SeededRandom random;
+
+    Answer answer() {
+        Answer answer;
+        answer.plays =
+            1 + static_cast<int>(random.below(
+                    session.mostPlays == 0 ? 3 : static_cast<std::size_t>(std::min(3, session.mostPlays))));
+        const double felt = session.leastSeconds *
+                            static_cast<double>(std::max<std::size_t>(1, trial.parts.size())),
+                     thinks = 0.8 - 1.5 * std::log(1.0 - random.uniform());
+        answer.ranOut = session.answerSeconds > 0.0 && thinks > session.answerSeconds;
+        answer.seconds = roundedTo(felt + (answer.ranOut ? session.answerSeconds : thinks), 1000.0);
+        if (answer.ranOut) return answer;
+        switch (session.answer()) {
+        case AnswerKind::wish:
+            if (session.fewestTouches > 0)
+                answer.place = FieldPlace{roundedTo(random.uniform(), 1e4), roundedTo(random.uniform(), 1e4)};
+            else
+                answer.response = explored();
+            break;
+        case AnswerKind::label: answer.response = identified(); break;
+        case AnswerKind::place: answer.place = feltTarget(std::get<GridSet>(condition.stimuli).grid()); break;
+        case AnswerKind::choice: answer.response = session.answers.empty() ? chosen() : answered(); break;
+        case AnswerKind::scores:
+            for (std::size_t s = 0; s < session.scores().size(); ++s) {
+                const double score = scored();
+                answer.scores.push_back(
+                    session.points > 0 ? 1.0 + std::round(0.01 * score * (session.points - 1)) : score);
+            }
+            break;
+        case AnswerKind::level:
+            answer.value =
+                std::clamp(roundedTo(comparedLevelDb(session) + settings.levelNoiseDb * random.normal(),
+                                     1.0 / session.adjustment->stepDb),
+                           session.adjustment->leastDb, session.adjustment->mostDb);
+            break;
+        case AnswerKind::number: answer.value = std::clamp(magnitude(), leastEstimate, mostEstimate); break;
+        case AnswerKind::words: answer.response = described(); break;
+        }
+        return answer;
+    }
+
+private:
+    std::string explored() const {
+        const auto items = stimuliOf(condition);
+        return items[static_cast<std::size_t>(trial.number - 1) % items.size()].label;
+    }
+
+    std::string identified() {
+        if (const auto* patterns = std::get_if<PatternSet>(&condition.stimuli))
+            return patternLabel(feltPattern(*parsePatternLabel(trial.stimulus), *patterns));
+        if (const auto* set = std::get_if<GridSet>(&condition.stimuli))
+            return gridLabel(set->grid().nearest(feltTarget(set->grid())));
+        const auto items = stimuliOf(condition); // unknown kind of stimulus: confused at a fixed rate
+        return random.chance(settings.pulsePlaceConfusion) ? items[random.below(items.size())].label
+                                                           : trial.stimulus;
+    }
+
+    PulsePattern feltPattern(PulsePattern pattern, const PatternSet& set) {
+        const auto others = static_cast<std::size_t>(set.enchanters - 1);
+        for (int k = 0; k < pattern.count; ++k) {
+            int& place = pattern.enchanters[static_cast<std::size_t>(k)];
+            if (others > 0 && random.chance(settings.pulsePlaceConfusion))
+                place = (place + 1 + static_cast<int>(random.below(others))) % set.enchanters;
+        }
+        if (set.pulseSeconds.size() > 1 && random.chance(settings.durationConfusion)) {
+            const double played = pattern.pulseSeconds;
+            do pattern.pulseSeconds = set.pulseSeconds[random.below(set.pulseSeconds.size())];
+            while (pattern.pulseSeconds == played);
+        }
+        if (pattern.count > 1 && random.chance(settings.numerosityConfusion)) --pattern.count;
+        return pattern;
+    }
+
+    double blur() const noexcept {
+        if (condition.observerBlur > 0.0) return condition.observerBlur;
+        return settings.ringBlur > 0.0 && condition.layout.starts_with("ring") ? settings.ringBlur
+                                                                               : settings.placeBlur;
+    }
+
+    FieldPlace feltTarget(const PhantomGrid& grid) {
+        const auto felt = [&](double at, double offset) {
+            const double middle = 0.5 + (1.0 - settings.pullToMiddle) * (at - 0.5) + offset;
+            return roundedTo(std::clamp(middle + blur() * random.normal(), 0.0, 1.0), 1e6);
+        };
+        const FieldPlace place = grid.place(*targetOf(condition, trial));
+        const double x = felt(place.x, settings.offsetX);
+        return {x, felt(place.y, settings.offsetY)};
+    }
+
+    /// Where the stimulus stands among all by its number, or in their list, from 0 to 1.
+    double standing() const {
+        const auto items = stimuliOf(condition);
+        const auto own = parseNumber<double>(trial.stimulus);
+        const auto before =
+            own ? std::ranges::count_if(
+                      items, [&](const StimulusItem& item) { return parseNumber<double>(item.label) < own; })
+                : std::ranges::find(items, trial.stimulus, &StimulusItem::label) - items.begin();
+        return (static_cast<double>(before) + 0.5) / static_cast<double>(items.size());
+    }
+
+    /// Picks the stronger of two different levels; otherwise the first listed alternative, by its preference.
+    std::string chosen() {
+        if (session.adaptedAlternative()) {
+            std::size_t strongest = 0;
+            double most = -1e9;
+            for (std::size_t i = 0; i < trial.parts.size(); ++i)
+                if (const double felt = trial.partLevelsDb[i] + settings.levelNoiseDb * random.normal();
+                    felt > most) {
+                    most = felt;
+                    strongest = i;
+                }
+            return trial.parts[strongest];
+        }
+        if (!session.correct.empty()) // knows half of them, the later ones
+            return random.chance(1.25 * standing() - 0.125)
+                       ? session.correct
+                       : session.alternatives[random.below(session.alternatives.size())].name;
+        if (random.chance(settings.firstAlternativePreference)) return session.alternatives.front().name;
+        return session.alternatives[1 + random.below(session.alternatives.size() - 1)].name;
+    }
+
+    /// The later a stimulus stands, the later an answer.
+    std::string answered() {
+        const double share = standing() + 0.2 * random.normal();
+        return session.answers[static_cast<std::size_t>(std::clamp(share, 0.0, 0.999) *
+                                                        static_cast<double>(session.answers.size()))];
+    }
+
+    /// Words that a table, a page and a spreadsheet must leave as they are; now and then none.
+    std::string described() {
+        static constexpr std::array words{"weak, short", "like \"tapping\"", "=strong", "<rough> & deep",
+                                          "\uac15\ud55c"};
+        if (session.mayBeEmpty && random.chance(0.25)) return {};
+        return words[random.below(words.size())];
+    }
+
+    double scored() {
+        const double score = settings.scoreBase + settings.amplitudeScore * varies(trial.stimulus, "AV") +
+                             settings.frequencyScore * varies(trial.stimulus, "FV") +
+                             settings.decayScore * varies(trial.stimulus, "DRV") +
+                             settings.scoreNoise * random.normal();
+        return std::round(std::clamp(score, 0.0, 100.0));
+    }
+
+    /// Stevens' power law with an exponent near one and the same level noise.
+    double magnitude() {
+        const double levelG = parseNumber<double>(trial.stimulus).value_or(condition.levelG);
+        const double db =
+            toDecibels(std::max(levelG, 1e-6)) + trial.levelDb + settings.levelNoiseDb * random.normal();
+        return std::max(0.01, roundedTo(10.0 * fromDecibels(0.9 * db), 100.0));
+    }
+};
+
 } // namespace
 
 std::optional<ObserverSettings> observerNamed(std::string_view name) {
@@ -75,172 +235,11 @@ Answer SimulatedObserver::answer(const Experiment& experiment) const {
     const Trial& trial = experiment.trial();
     const SessionPlan& session = experiment.session();
     const ConditionPlan& condition = experiment.condition();
-    SeededRandom random{static_cast<std::uint64_t>(protocol_.seed),
-                        "observer/" + std::to_string(participant_.number) + "/" + condition.name + "/" +
-                            session.name + "/" + std::to_string(trial.number)};
-    Answer answer;
-    answer.plays =
-        1 + static_cast<int>(random.below(
-                session.mostPlays == 0 ? 3 : static_cast<std::size_t>(std::min(3, session.mostPlays))));
-    const double felt =
-                     session.leastSeconds * static_cast<double>(std::max<std::size_t>(1, trial.parts.size())),
-                 thinks = 0.8 - 1.5 * std::log(1.0 - random.uniform());
-    answer.ranOut = session.answerSeconds > 0.0 && thinks > session.answerSeconds;
-    answer.seconds = roundedTo(felt + (answer.ranOut ? session.answerSeconds : thinks), 1000.0);
-    if (answer.ranOut) return answer;
-    switch (session.answer()) {
-    case AnswerKind::wish: answer.response = explored(experiment, random, answer); break;
-    case AnswerKind::label: answer.response = identified(condition, trial, random); break;
-    case AnswerKind::place:
-        answer.place =
-            feltPlace(std::get<GridSet>(condition.stimuli).grid().place(*targetOf(condition, trial)),
-                      blurOf(condition), random);
-        break;
-    case AnswerKind::choice:
-        answer.response = session.answers.empty() ? chosen(session, condition, trial, random)
-                                                  : answered(session, condition, trial, random);
-        break;
-    case AnswerKind::scores:
-        for (std::size_t s = 0; s < session.scores().size(); ++s) {
-            const double score = scored(trial, random);
-            answer.scores.push_back(session.points > 0 ? 1.0 + std::round(0.01 * score * (session.points - 1))
-                                                       : score);
-        }
-        break;
-    case AnswerKind::level:
-        answer.value =
-            std::clamp(roundedTo(comparedLevelDb(session) + settings_.levelNoiseDb * random.normal(),
-                                 1.0 / session.adjustment->stepDb),
-                       session.adjustment->leastDb, session.adjustment->mostDb);
-        break;
-    case AnswerKind::number:
-        answer.value = std::clamp(magnitude(condition, trial, random), leastEstimate, mostEstimate);
-        break;
-    case AnswerKind::words: answer.response = described(session, random); break;
-    }
-    return answer;
-}
-
-std::string SimulatedObserver::explored(const Experiment& experiment, SeededRandom& random,
-                                        Answer& answer) const {
-    if (experiment.session().fewestTouches > 0) {
-        answer.place = FieldPlace{roundedTo(random.uniform(), 1e4), roundedTo(random.uniform(), 1e4)};
-        return {};
-    }
-    const auto items = stimuliOf(experiment.condition());
-    return items[static_cast<std::size_t>(experiment.trial().number - 1) % items.size()].label;
-}
-
-std::string SimulatedObserver::identified(const ConditionPlan& condition, const Trial& trial,
-                                          SeededRandom& random) const {
-    if (const auto* patterns = std::get_if<PatternSet>(&condition.stimuli))
-        return patternLabel(feltPattern(*parsePatternLabel(trial.stimulus), *patterns, random));
-    if (const auto* set = std::get_if<GridSet>(&condition.stimuli)) {
-        const PhantomGrid grid = set->grid();
-        return gridLabel(
-            grid.nearest(feltPlace(grid.place(*targetOf(condition, trial)), blurOf(condition), random)));
-    }
-    const auto items = stimuliOf(condition); // unknown kind of stimulus: confused at a fixed rate
-    return random.chance(settings_.pulsePlaceConfusion) ? items[random.below(items.size())].label
-                                                        : trial.stimulus;
-}
-
-PulsePattern SimulatedObserver::feltPattern(PulsePattern pattern, const PatternSet& set,
-                                            SeededRandom& random) const {
-    const auto others = static_cast<std::size_t>(set.enchanters - 1);
-    for (int k = 0; k < pattern.count; ++k) {
-        int& place = pattern.enchanters[static_cast<std::size_t>(k)];
-        if (others > 0 && random.chance(settings_.pulsePlaceConfusion))
-            place = (place + 1 + static_cast<int>(random.below(others))) % set.enchanters;
-    }
-    if (set.pulseSeconds.size() > 1 && random.chance(settings_.durationConfusion)) {
-        const double played = pattern.pulseSeconds;
-        do pattern.pulseSeconds = set.pulseSeconds[random.below(set.pulseSeconds.size())];
-        while (pattern.pulseSeconds == played);
-    }
-    if (pattern.count > 1 && random.chance(settings_.numerosityConfusion)) --pattern.count;
-    return pattern;
-}
-
-double SimulatedObserver::blurOf(const ConditionPlan& condition) const noexcept {
-    if (condition.observerBlur > 0.0) return condition.observerBlur;
-    return settings_.ringBlur > 0.0 && condition.layout.starts_with("ring") ? settings_.ringBlur
-                                                                            : settings_.placeBlur;
-}
-
-FieldPlace SimulatedObserver::feltPlace(const FieldPlace& place, double blur, SeededRandom& random) const {
-    const auto felt = [&](double at, double offset) {
-        const double middle = 0.5 + (1.0 - settings_.pullToMiddle) * (at - 0.5) + offset;
-        return roundedTo(std::clamp(middle + blur * random.normal(), 0.0, 1.0), 1e6);
-    };
-    const double x = felt(place.x, settings_.offsetX);
-    return {x, felt(place.y, settings_.offsetY)};
-}
-
-/// Where a stimulus stands among all by its number, or in their list, from 0 to 1.
-double standingOf(const ConditionPlan& condition, const Trial& trial) {
-    const auto items = stimuliOf(condition);
-    const auto own = parseNumber<double>(trial.stimulus);
-    const auto before =
-        own ? std::ranges::count_if(
-                  items, [&](const StimulusItem& item) { return parseNumber<double>(item.label) < own; })
-            : std::ranges::find(items, trial.stimulus, &StimulusItem::label) - items.begin();
-    return (static_cast<double>(before) + 0.5) / static_cast<double>(items.size());
-}
-
-/// Picks the stronger of two different levels; otherwise the first listed alternative, by its preference.
-std::string SimulatedObserver::chosen(const SessionPlan& session, const ConditionPlan& condition,
-                                      const Trial& trial, SeededRandom& random) const {
-    if (session.adaptedAlternative()) {
-        std::size_t strongest = 0;
-        double most = -1e9;
-        for (std::size_t i = 0; i < trial.parts.size(); ++i)
-            if (const double felt = trial.partLevelsDb[i] + settings_.levelNoiseDb * random.normal();
-                felt > most) {
-                most = felt;
-                strongest = i;
-            }
-        return trial.parts[strongest];
-    }
-    if (!session.correct.empty()) // knows half of them, the later ones
-        return random.chance(1.25 * standingOf(condition, trial) - 0.125)
-                   ? session.correct
-                   : session.alternatives[random.below(session.alternatives.size())].name;
-    if (random.chance(settings_.firstAlternativePreference)) return session.alternatives.front().name;
-    return session.alternatives[1 + random.below(session.alternatives.size() - 1)].name;
-}
-
-/// The later a stimulus stands, the later an answer.
-std::string SimulatedObserver::answered(const SessionPlan& session, const ConditionPlan& condition,
-                                        const Trial& trial, SeededRandom& random) {
-    const double share = standingOf(condition, trial) + 0.2 * random.normal();
-    return session.answers[static_cast<std::size_t>(std::clamp(share, 0.0, 0.999) *
-                                                    static_cast<double>(session.answers.size()))];
-}
-
-/// Words that a table, a page and a spreadsheet must leave as they are; now and then none.
-std::string SimulatedObserver::described(const SessionPlan& session, SeededRandom& random) {
-    static constexpr std::array words{"weak, short", "like \"tapping\"", "=strong", "<rough> & deep",
-                                      "\uac15\ud55c"};
-    if (session.mayBeEmpty && random.chance(0.25)) return {};
-    return words[random.below(words.size())];
-}
-
-double SimulatedObserver::scored(const Trial& trial, SeededRandom& random) const {
-    const double score = settings_.scoreBase + settings_.amplitudeScore * varies(trial.stimulus, "AV") +
-                         settings_.frequencyScore * varies(trial.stimulus, "FV") +
-                         settings_.decayScore * varies(trial.stimulus, "DRV") +
-                         settings_.scoreNoise * random.normal();
-    return std::round(std::clamp(score, 0.0, 100.0));
-}
-
-/// Stevens' power law with an exponent near one and the same level noise.
-double SimulatedObserver::magnitude(const ConditionPlan& condition, const Trial& trial,
-                                    SeededRandom& random) const {
-    const double levelG = parseNumber<double>(trial.stimulus).value_or(condition.levelG);
-    const double db =
-        toDecibels(std::max(levelG, 1e-6)) + trial.levelDb + settings_.levelNoiseDb * random.normal();
-    return std::max(0.01, roundedTo(10.0 * fromDecibels(0.9 * db), 100.0));
+    return Response{settings_, session, condition, trial,
+                    SeededRandom{static_cast<std::uint64_t>(protocol_.seed),
+                                 "observer/" + std::to_string(participant_.number) + "/" + condition.name +
+                                     "/" + session.name + "/" + std::to_string(trial.number)}}
+        .answer();
 }
 
 } // namespace physvib

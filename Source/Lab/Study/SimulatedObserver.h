@@ -47,19 +47,6 @@ public:
     Answer answer(const Experiment& experiment) const;
 
 private:
-    std::string explored(const Experiment& experiment, SeededRandom& random, Answer& answer) const;
-    std::string identified(const ConditionPlan& condition, const Trial& trial, SeededRandom& random) const;
-    PulsePattern feltPattern(PulsePattern pattern, const PatternSet& set, SeededRandom& random) const;
-    double blurOf(const ConditionPlan& condition) const noexcept;
-    FieldPlace feltPlace(const FieldPlace& place, double blur, SeededRandom& random) const;
-    std::string chosen(const SessionPlan& session, const ConditionPlan& condition, const Trial& trial,
-                       SeededRandom& random) const;
-    static std::string answered(const SessionPlan& session, const ConditionPlan& condition,
-                                const Trial& trial, SeededRandom& random);
-    static std::string described(const SessionPlan& session, SeededRandom& random);
-    double scored(const Trial& trial, SeededRandom& random) const;
-    double magnitude(const ConditionPlan& condition, const Trial& trial, SeededRandom& random) const;
-
     ObserverSettings settings_;
     const Protocol& protocol_;
     Participant participant_;

@@ -5,10 +5,8 @@
 #include "Core/PortableMath.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/Experiment.h"
-#include "Lab/Study/PercentCounts.h"
 #include "Lab/Study/Protocol.h"
 #include "Scene/ActuatorFile.h"
-#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -21,7 +19,7 @@ namespace ranges = stimulusRanges;
 
 JobFault rangeFault(std::string_view word, double number, const StimulusRange& range) {
     if (range.holds(number)) return {};
-    return {word, numberWord(range.least) + " to " + numberWord(range.most)};
+    return {word, numberText(range.least) + " to " + numberText(range.most)};
 }
 
 JobFault placeFault(const FieldPlace& place) {
@@ -87,11 +85,6 @@ double weightedSquares(double frequencyHz, double decayPerSecond, double seconds
 
 } // namespace
 
-FieldPlace PhantomJob::place() const noexcept {
-    if (const auto* const point = std::get_if<GridPlace>(&at)) return point->grid.place(point->cell);
-    return *std::get_if<FieldPlace>(&at);
-}
-
 double PhantomJob::peakFactor(double frequencyHz) const noexcept {
     if (levelOf == LevelOf::weighted)
         return std::sqrt(0.5 * seconds / weightedSquares(frequencyHz, decayPerSecond, seconds));
@@ -124,17 +117,17 @@ public:
         text.append(" ").append(word).append(" ").append(value);
         return *this;
     }
-    CallWriter& add(std::string_view word, double value) { return add(word, numberWord(value)); }
+    CallWriter& add(std::string_view word, double value) { return add(word, numberText(value)); }
     CallWriter& addCarrier(const StimulusJob& job) {
         return add(words::layout, job.layout)
-            .add(words::frequency, job.frequencyHz ? numberWord(*job.frequencyHz) : words::resonance)
+            .add(words::frequency, job.frequencyHz ? numberText(*job.frequencyHz) : words::resonance)
             .add(words::levelG, job.levelG);
     }
     std::string text;
 };
 
 void addPlace(CallWriter& call, const FieldPlace& place) {
-    call.add(words::at, numberWord(place.x) + "," + numberWord(place.y));
+    call.add(words::at, numberText(place.x) + "," + numberText(place.y));
 }
 
 void addPlace(CallWriter& call, const GridPlace& place) {
@@ -195,7 +188,7 @@ std::string withSounds(const Protocol& protocol, std::string call) {
     if (call.find("--method SV") == std::string::npos) return call;
     for (const StudySoundFile& sound : protocol.sounds) {
         const std::string quote = sound.file.find(' ') == std::string::npos ? "" : "\"";
-        call += " --sound " + quote + numberWord(sound.frequencyHz) + "=" + sound.file + quote;
+        call += " --sound " + quote + numberText(sound.frequencyHz) + "=" + sound.file + quote;
     }
     return call;
 }

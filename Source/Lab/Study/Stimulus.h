@@ -5,10 +5,9 @@
 #include "Core/Limits.h"
 #include "Core/PhantomPanner.h"
 #include "Io/Result.h"
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include "Lab/Study/Summaries.h"
 #include "Scene/LayoutFile.h"
-#include "Stimuli/PulsePattern.h"
 #include "Stimuli/Stimulus.h"
 #include <algorithm>
 #include <array>
@@ -62,7 +61,10 @@ struct PhantomJob {
     std::string recording{}; ///< a mono file instead of the tone, of its own rate and length
     bool operator==(const PhantomJob&) const = default;
 
-    FieldPlace place() const noexcept;
+    FieldPlace place() const noexcept {
+        if (const auto* const point = std::get_if<GridPlace>(&at)) return point->grid.place(point->cell);
+        return *std::get_if<FieldPlace>(&at);
+    }
     /// Peak over levelG that levelOf asks for of a tone of that frequency.
     double peakFactor(double frequencyHz) const noexcept;
 };

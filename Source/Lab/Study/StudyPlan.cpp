@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Computes trials, levels and times of a study from the protocol alone.
 #include "Lab/Study/StudyPlan.h"
-#include "Lab/Study/StudyOrder.h"
 #include <algorithm>
 #include <cmath>
 #include <iterator>

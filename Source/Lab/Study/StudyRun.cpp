@@ -71,23 +71,12 @@ StudyInProgress::StudyInProgress(StudyRun run)
     if (isOfToday_ && before_ > 0) exposureToday_ = log_.records().back().answer.exposure.value_or(0.0);
 }
 
-std::string StudyInProgress::begin(const Apparatus& now) {
-    return note(log_.records().empty() ? studyEvents::start : studyEvents::resume, now);
-}
-
 std::string StudyInProgress::note(std::string_view event, const Apparatus& now) {
     if (!times_.empty() && times_.back().event == studyEvents::end) return {};
     times_.push_back({utcNow(), std::string(event), experiment_.trialsTaken(), now.language, now.outputs,
                       now.noiseOutputs});
     rests_.take(times_.back());
     return writeStudyTimes(timesPathOf(path_), times_);
-}
-
-const StudyMoment* StudyInProgress::restBegan() const {
-    const auto found = std::ranges::find_if(times_, [&](const StudyMoment& m) {
-        return m.event == studyEvents::rest && m.trials == experiment_.trialsTaken();
-    });
-    return found != times_.end() ? &*found : nullptr;
 }
 
 double StudyInProgress::restLeft() const {

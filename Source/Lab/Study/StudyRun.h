@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One participant's run of a study with its trial file, for a person or a simulated observer.
 #pragma once
-#include "Lab/Files/StudyTimes.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/Experiment.h"
 #include <filesystem>
@@ -53,7 +52,9 @@ public:
         return before && before->masterDb != now.masterDb ? std::optional{before->masterDb} : std::nullopt;
     }
     /// Writes the start or resume with this apparatus into the file of times. Empty, or why not.
-    std::string begin(const Apparatus& now);
+    std::string begin(const Apparatus& now) {
+        return note(log_.records().empty() ? studyEvents::start : studyEvents::resume, now);
+    }
     /// Adds an event (studyEvents) with the current time. Empty, or why not.
     /// After the end nothing is added, however often the study is opened again.
     std::string note(std::string_view event, const Apparatus& now = {});
@@ -81,7 +82,13 @@ public:
     std::string keepComment(const std::string& words) const;
 
 private:
-    const StudyMoment* restBegan() const; // the break before the current trial; null if none was noted
+    // the break before the current trial; null if none was noted
+    const StudyMoment* restBegan() const {
+        const auto found = std::ranges::find_if(times_, [&](const StudyMoment& m) {
+            return m.event == studyEvents::rest && m.trials == experiment_.trialsTaken();
+        });
+        return found != times_.end() ? &*found : nullptr;
+    }
 
     StudyRun run_;
     std::filesystem::path path_;

@@ -5,16 +5,10 @@
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/QuestMethod.h"
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>
-#include <span>
-#include <string_view>
-#include <tuple>
 
 namespace physvib {
 namespace {

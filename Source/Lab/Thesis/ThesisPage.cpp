@@ -8,8 +8,6 @@
 #include "Lab/Analysis/StudyCharts.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/Identification.h"
-#include "Lab/Study/PercentCounts.h"
-#include "Lab/Thesis/Published.h"
 #include <algorithm>
 #include <cmath>
 

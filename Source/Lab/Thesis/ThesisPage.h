@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The thesis beside PhysVib: where each part of it is, and what it prints beside what follows from it.
 #pragma once
-#include "Lab/Report/ReportPage.h"
+#include "Lab/Report/ReportBuilder.h"
+#include <array>
+#include <cstddef>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace physvib {
@@ -44,3 +47,91 @@ struct ThesisPage {
 ThesisPage thesisPage();
 
 } // namespace physvib
+
+// What the thesis prints of its five studies, as printed, to stand beside what is reckoned from it. A note
+// says where the print cannot be.
+
+namespace physvib::thesis {
+
+/// A condition of absolute identification: 3.2.2, 4.1.2.
+struct Identification {
+    std::string_view study, condition; ///< as in our protocols
+    std::size_t stimuli = 0;
+    double bits = 0.0, percentCorrect = 0.0;            ///< exact; percent 0: not printed by condition
+    double bitsTolerance = 0.0, percentTolerance = 0.0; ///< one step of tolerance; 0: none
+};
+
+/// 3.2.2, over conditions
+inline constexpr double patternsPercentMean = 92.1, patternsPercentLeast = 89.2, patternsPercentMost = 95.0;
+
+inline constexpr std::array identifications{
+    Identification{"patterns", "PHONE-2", 28, 4.55},
+    Identification{"patterns", "PHONE-3", 78, 6.03},
+    Identification{"patterns", "PHONE-4", 168, 7.06},
+    Identification{"patterns", "RING-2", 28, 4.55},
+    Identification{"patterns", "RING-3", 78, 6.06},
+    Identification{"patterns", "RING-4", 168, 6.92},
+    Identification{"phantom-grids", "PHONE-3x3", 9, 1.89, 74.0, 2.76, 93.4},
+    Identification{"phantom-grids", "PHONE-4x4", 16, 1.77, 45.3, 3.04, 82.3},
+    Identification{"phantom-grids", "PHONE-5x5", 25, 1.76, 30.6, 3.00, 70.2},
+    Identification{"phantom-grids", "RING-3x3", 9, 2.53, 88.7, 3.05, 98.4},
+    Identification{"phantom-grids", "RING-4x4", 16, 2.32, 61.7, 3.50, 92.6},
+    Identification{"phantom-grids", "RING-5x5", 25, 2.28, 45.1, 2.62, 83.5},
+};
+
+/// Fig. 4.9 a, row by row, 7 x 5. The figure's tables are in the order PHONE-LINEAR, PHONE-LOGARITHM,
+/// RING-LINEAR, RING-LOGARITHM: their standard deviations are those that the text gives by condition; its
+/// captions are not in that order.
+struct Counts {
+    std::string_view condition;
+    double deviation = 0.0;            ///< as the text has it
+    std::size_t columns = 0, rows = 0; ///< of the merged grid
+    std::array<double, 35> percent{};
+};
+
+inline constexpr std::size_t countColumns = 7, countRows = 5;
+inline constexpr std::array counts{
+    Counts{"PHONE-LINEAR", 1.32, 5, 5, {2.87, 3.18, 3.39, 3.46, 3.22, 2.62, 3.45, 0.01, 1.60,
+                                        3.26, 1.42, 2.77, 0.76, 1.20, 6.51, 1.22, 3.14, 4.20,
+                                        3.64, 1.74, 3.11, 3.45, 1.17, 1.95, 3.77, 3.57, 1.03,
+                                        3.53, 2.84, 2.56, 3.99, 5.41, 4.15, 2.42, 3.35}},
+    Counts{"PHONE-LOGARITHM", 1.97, 5, 4, {6.36, 1.78, 4.90, 0.69, 6.77, 1.46, 4.05, 3.25, 0.47,
+                                           1.12, 2.19, 0.47, 1.58, 1.04, 6.23, 0.78, 2.75, 3.18,
+                                           1.92, 0.74, 3.55, 2.15, 0.01, 2.59, 2.59, 3.05, 2.46,
+                                           4.37, 6.15, 0.64, 4.44, 2.95, 7.29, 3.40, 2.66}},
+    Counts{"RING-LINEAR", 1.33, 6, 4, {3.18, 3.88, 3.80, 3.79, 3.35, 3.97, 3.50, 2.30, 1.79, 0.54, 1.17, 0.38,
+                                       1.38, 1.16, 2.77, 2.44, 3.71, 7.25, 3.23, 2.47, 2.93, 2.59, 1.56, 1.65,
+                                       3.62, 3.28, 1.26, 3.32, 2.32, 2.88, 2.79, 5.02, 2.73, 3.92, 4.07}},
+    Counts{"RING-LOGARITHM", 1.11, 7, 4, {3.69, 4.93, 3.10, 2.22, 1.44, 3.63, 3.60, 2.09, 2.20,
+                                          1.34, 0.87, 2.53, 1.06, 1.56, 3.25, 2.52, 3.16, 6.54,
+                                          2.93, 3.05, 2.90, 1.65, 1.78, 3.04, 3.44, 3.12, 2.29,
+                                          2.97, 2.62, 3.56, 2.29, 3.90, 3.24, 4.05, 3.45}},
+};
+
+inline constexpr double modelChosenPercent = 59.0; ///< 5.2.2, all votes
+
+/// 5.3.2: three of the eight methods are printed.
+struct Rating {
+    std::string_view method;
+    std::array<double, 3> scores{}; ///< realism, harmony, liking
+};
+inline constexpr std::array ratings{Rating{"AV-FV-DRV", {76.4, 68.9, 71.2}},
+                                    Rating{"AF-FF-DRV", {37.8, 43.5, 36.0}},
+                                    Rating{"AF-FF-DRF", {36.1, 42.2, 36.1}}};
+
+/// More for varied than for fixed, mean of the three scales: amplitude, frequency, decay rate (5.3.2).
+inline constexpr double amplitudeGain = 8.0, frequencyGain = 23.2, decayGain = 2.0;
+/// Means of the printed F(1, 19) of their scales (5.3.2; all are in printed-tests.R).
+inline constexpr double amplitudeF = (13.8 + 10.87) / 2.0, frequencyF = (56.49 + 32.98 + 59.74) / 3.0,
+                        decayF = 6.30;
+
+/// How many took part in each study, by our protocol.
+struct Participants {
+    std::string_view protocol;
+    int count = 0;
+};
+inline constexpr std::array participants{
+    Participants{"patterns", 12}, Participants{"phantom-grids", 18}, Participants{"phantom-places", 16},
+    Participants{"model-or-sound", 20}, Participants{"eight-methods", 20}};
+
+} // namespace physvib::thesis

@@ -7,7 +7,7 @@
 #include "Live/Messages/MessageValues.h"
 #include "Scene/EventColumns.h"
 #include "Scene/PartNames.h"
-#include "Stimuli/PulsePattern.h"
+#include "Stimuli/Stimulus.h"
 #include <algorithm>
 #include <cmath>
 

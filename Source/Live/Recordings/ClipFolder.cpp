@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Finds a clip by name, reads it and computes its hash.
 #include "Live/Recordings/ClipFolder.h"
+#include "Formats/Clip.h"
 #include "Formats/ClipFile.h"
-#include "Formats/ClipLimits.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/ReadFile.h"

@@ -3,7 +3,7 @@
 // actuator's profile.
 #include "Live/Recordings/HitExport.h"
 #include "Core/Modes/ModeIncrements.h"
-#include "Formats/ClipLimits.h"
+#include "Formats/Clip.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"

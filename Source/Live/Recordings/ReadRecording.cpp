@@ -3,7 +3,7 @@
 // by Formats.
 #include "Live/Recordings/ReadRecording.h"
 #include "Formats/ClipFile.h"
-#include "Formats/ClipSound.h"
+#include "Formats/StrikeClip.h"
 #include "Io/Disk/ReadFile.h"
 #include "Measure/HitExcerpt.h"
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "CommandLine/Measure/RecordingList.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
-#include "Lab/Files/CouplingFile.h"
+#include "Lab/Study/Coupling.h"
 #include "Scene/LayoutFile.h"
 #include <map>
 #include <string>

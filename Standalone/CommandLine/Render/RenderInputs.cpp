@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files first, then simulation, then what the options make of each collision.
 #include "CommandLine/Render/RenderInputs.h"
-#include "Formats/ClipSound.h"
+#include "Formats/StrikeClip.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Live/Session/SessionRender.h"
 #include "Scene/ActuatorFile.h"

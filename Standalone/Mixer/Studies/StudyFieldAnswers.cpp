@@ -2,7 +2,7 @@
 // Answers on the field: a cell of a grid, or any place.
 #include "Mixer/Studies/StudyAnswers.h"
 #include "Mixer/Studies/StudyParts.h"
-#include "Stimuli/PulsePattern.h"
+#include "Stimuli/Stimulus.h"
 #include <cmath>
 #include <functional>
 #include <map>

@@ -4,7 +4,7 @@
 #include "Host/Views/WorldPictures.h"
 #include "Io/Result.h"
 #include "Lab/Files/Words.h"
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include "Lab/Study/Protocol.h"
 #include "Mixer/Widgets/Parts.h"
 #include "Scene/LayoutFile.h"
