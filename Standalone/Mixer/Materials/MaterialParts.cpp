@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws recordings in the material's colour, and the fitted mode in the accent colour.
-#include "Mixer/Materials/MaterialParts.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/PartialFit.h"
 #include "Measure/Spectrum.h"
+#include "Mixer/Materials/MaterialsTab.h"
 #include "Scene/SceneFields.h"
-#include <algorithm>
 #include <juce_audio_basics/juce_audio_basics.h>
 #include <numbers>
 

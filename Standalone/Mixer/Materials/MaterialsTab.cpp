@@ -2,11 +2,8 @@
 // Controls of the materials tab: list, frequency, decay, surface, test spot; a thread measures recordings.
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 namespace {

@@ -6,10 +6,7 @@
 #include "Live/Recordings/ClipFolder.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/ActuatorFile.h"
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace physvib {
 namespace {

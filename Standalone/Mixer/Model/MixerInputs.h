@@ -6,14 +6,9 @@
 #include "Live/Documents/InputLine.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Mixer/Model/MixerWorld.h"
-#include <functional>
 #include <juce_core/juce_core.h>
 #include <juce_events/juce_events.h>
-#include <memory>
 #include <mutex>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace physvib {
 

@@ -2,12 +2,8 @@
 // The queue of messages, words for impacts, and trials of materials in a world of their own.
 #include "Mixer/Model/MixerMessages.h"
 #include "Core/NameNumbers.h"
-#include "Live/Documents/Mix.h"
-#include "Live/Documents/SessionFile.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/Drawing/FeltTrial.h"
-#include <algorithm>
-#include <cmath>
 #include <ranges>
 
 namespace physvib {

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mixer's state, the session that plays it, and its output device.
 #include "Mixer/Model/MixerModel.h"
-#include "Live/Documents/Mix.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneFile.h"
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace physvib {

@@ -2,20 +2,11 @@
 // Model of the mixer's window: a live session on a device, the mixer state, and the undo history. Its parts
 // are the other files of this folder; views look at it and change it, it knows no view.
 #pragma once
-#include "Live/Documents/Mix.h"
 #include "Live/Documents/SessionFile.h"
-#include "Live/Rig/Rig.h"
-#include "Live/Session/Session.h"
 #include "Mixer/Model/MixerDevice.h"
 #include "Mixer/Model/MixerInputs.h"
 #include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerRecording.h"
-#include "Mixer/Model/MixerSignals.h"
-#include "Mixer/Model/MixerWorld.h"
-#include <juce_data_structures/juce_data_structures.h>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace physvib {
 

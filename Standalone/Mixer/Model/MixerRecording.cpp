@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Closes a recording after its last block, and adds moves of faders to the lanes that played.
 #include "Mixer/Model/MixerRecording.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerModel.h"
-#include <utility>
 
 namespace physvib {
 

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Applies inputs and edits, converts the log of a scene run to a script, and matches the levels of two mixes.
 #include "Mixer/Model/MixerWorld.h"
-#include "Io/Text/ReadableNumber.h"
-#include "Live/Documents/Mix.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/SceneCast.h"
-#include <cmath>
 #include <map>
 
 namespace physvib {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // List of actuators, and controls of the panner.
-#include "Mixer/Output/EnchantersTab.h"
+#include "Mixer/Output/OutputTab.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/ActuatorFile.h"
 

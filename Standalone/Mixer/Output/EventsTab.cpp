@@ -4,10 +4,7 @@
 #include "Core/NameNumbers.h"
 #include "Io/Text/NameList.h"
 #include "Live/Recordings/HitExport.h"
-#include "Mixer/Model/MixerMessages.h"
-#include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Widgets/Cards.h"
-#include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <limits>

@@ -2,13 +2,8 @@
 // Tab that lists the played contacts, newest first; selected ones can be dragged to another program or saved.
 #pragma once
 #include "Formats/ClipFile.h"
-#include "Io/Result.h"
-#include "Live/Documents/Mix.h"
 #include "Mixer/Widgets/Parts.h"
-#include <juce_core/juce_core.h>
 #include <set>
-#include <string>
-#include <vector>
 
 namespace physvib {
 

@@ -2,7 +2,6 @@
 // Controls for the device, and its status text.
 #include "Mixer/Output/OutputTab.h"
 #include "Live/Devices/NoDevice.h"
-#include "Mixer/Model/MixerDevice.h"
 #include "Mixer/Widgets/Cards.h"
 
 namespace physvib {

@@ -7,11 +7,7 @@
 #include "Live/Recordings/ReadRecording.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/EventsCsv.h"
-#include <algorithm>
-#include <cmath>
 #include <juce_audio_formats/juce_audio_formats.h>
-#include <optional>
-#include <utility>
 
 namespace physvib {
 namespace {

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The recordings in the user's folder: a list with what can be done with each.
 #pragma once
-#include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Widgets/Parts.h"
 #include <atomic>
-#include <functional>
-#include <juce_core/juce_core.h>
-#include <mutex>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace physvib {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Formats counters of session and device; amber marks losses.
-#include "Mixer/Output/TelemetryTab.h"
 #include "Core/Units.h"
 #include "Live/Devices/NoDevice.h"
-#include <algorithm>
+#include "Mixer/Output/OutputTab.h"
 #include <numeric>
 
 namespace physvib {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows for all strips and groups, with a time axis.
 #include "Mixer/Strips/LanesTab.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 namespace {

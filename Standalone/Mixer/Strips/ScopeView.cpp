@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws each column from its minimum to its maximum; the square root of the level makes weak impacts visible.
 #include "Mixer/Strips/ScopeView.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scope of the last second, one trace per actuator, with their spectra.
 #pragma once
-#include "Mixer/Model/MixerModel.h"
 #include "Mixer/Widgets/Parts.h"
 
 namespace physvib {

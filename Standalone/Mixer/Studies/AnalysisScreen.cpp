@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shows results of the same analysis functions as `physvib analyse`.
-#include "Mixer/Studies/AnalysisScreen.h"
-#include "Mixer/Model/MixerRecording.h"
-#include "Mixer/Studies/StudyParts.h"
+#include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Widgets/Cards.h"
 
 namespace physvib {

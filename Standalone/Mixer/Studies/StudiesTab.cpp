@@ -5,9 +5,6 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Live/Documents/Mix.h"
-#include "Mixer/Model/MixerRecording.h"
-#include "Mixer/Studies/StudyParts.h"
 #include "Mixer/Widgets/Cards.h"
 
 namespace physvib {

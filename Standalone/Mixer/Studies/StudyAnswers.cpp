@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layout of the answer component and its confirm button.
-#include "Mixer/Studies/StudyAnswers.h"
 #include "Host/Views/WorldView.h"
 #include "Io/Text/NumberText.h"
-#include <cmath>
+#include "Mixer/Studies/StudyParts.h"
 
 namespace physvib {
 namespace {

@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Answers on the field: a cell of a grid, or any place.
-#include "Mixer/Studies/StudyAnswers.h"
 #include "Mixer/Studies/StudyParts.h"
 #include "Stimuli/PulsePattern.h"
-#include <cmath>
-#include <functional>
 #include <map>
-#include <utility>
 
 namespace physvib {
 namespace {

@@ -5,8 +5,6 @@
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 

@@ -1,18 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays a stimulus in the mixer's session: controls first, then its events slightly later.
-#include "Mixer/Studies/StudyPlayback.h"
 #include "Core/Units.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Documents/Mix.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
+#include "Mixer/Studies/StudyScreen.h"
 #include "Scene/SceneEdits.h"
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <utility>
 
 namespace physvib {
 namespace {

@@ -5,12 +5,7 @@
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Mixer/Widgets/Parts.h"
-#include "Scene/LayoutFile.h"
 #include "Scene/SceneEdits.h"
-#include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace physvib {
 namespace {

@@ -3,9 +3,6 @@
 #include "Mixer/Widgets/Cards.h"
 #include "Io/Text/QrCode.h"
 #include "Scene/SceneValidation.h"
-#include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace physvib {
 namespace {

@@ -2,13 +2,8 @@
 // Cards over the window: a choice of files, a question, the progress of a file that is made; how panels ask
 // by them, and what keeps the keyboard and the mouse from what is behind.
 #pragma once
-#include "Host/Views/Look.h"
 #include "Mixer/Widgets/Parts.h"
 #include <atomic>
-#include <functional>
-#include <juce_gui_basics/juce_gui_basics.h>
-#include <memory>
-#include <vector>
 
 namespace physvib {
 

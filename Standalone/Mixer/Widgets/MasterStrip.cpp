@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls and picture of the total output.
-#include "Mixer/Widgets/MasterStrip.h"
 #include "Mixer/Widgets/Parts.h"
-#include <algorithm>
 
 namespace physvib {
 

@@ -4,9 +4,6 @@
 #include "Core/Units.h"
 #include "Host/Views/WorldView.h"
 #include "Measure/Spectrum.h"
-#include "Mixer/Model/MixerSignals.h"
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace physvib {

@@ -2,13 +2,8 @@
 // First-start assistant: device choice and test pulses. Levels start low, because people may be holding the
 // actuators.
 #include "Mixer/Window/FirstStart.h"
-#include "Core/Limits.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
-#include "Mixer/Model/MixerDevice.h"
-#include <algorithm>
-#include <optional>
-#include <utility>
 
 namespace physvib {
 namespace {

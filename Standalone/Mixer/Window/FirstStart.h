@@ -2,12 +2,8 @@
 // First-start assistant: chooses the device of the actuators, then tests each actuator: was its pulse felt,
 // and where?
 #pragma once
-#include "Mixer/Model/MixerModel.h"
 #include "Mixer/Widgets/Cards.h"
-#include <functional>
-#include <memory>
 #include <string_view>
-#include <vector>
 
 namespace physvib {
 

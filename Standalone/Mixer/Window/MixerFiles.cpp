@@ -4,14 +4,9 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/ReadFile.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <juce_core/juce_core.h>
 #include <system_error>
-#include <utility>
 
 namespace physvib {
 namespace {

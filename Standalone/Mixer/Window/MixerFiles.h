@@ -2,15 +2,10 @@
 // Files that the mixer keeps between runs: settings, recent documents, and recovery copies of the session.
 #pragma once
 #include "Io/Disk/SystemFile.h"
-#include "Live/Documents/Mix.h"
-#include "Live/Documents/SessionFile.h"
 #include "Mixer/Model/MixerModel.h"
 #include <filesystem>
 #include <juce_gui_extra/juce_gui_extra.h>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace physvib {
 

@@ -2,17 +2,12 @@
 // The panels, keyboard handling, and display updates.
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Materials/MaterialsTab.h"
-#include "Mixer/Model/MixerMessages.h"
-#include "Mixer/Output/EnchantersTab.h"
 #include "Mixer/Output/EventsTab.h"
 #include "Mixer/Output/OutputTab.h"
 #include "Mixer/Output/TakesTab.h"
-#include "Mixer/Output/TelemetryTab.h"
 #include "Mixer/Strips/LanesTab.h"
 #include "Mixer/Strips/ScopeView.h"
 #include "Mixer/Studies/StudiesTab.h"
-#include <algorithm>
-#include <utility>
 
 namespace physvib {
 namespace {

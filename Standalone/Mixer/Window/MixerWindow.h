@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mixer's window with its document: opens, saves, records, renders, and asks before changes are lost.
 #pragma once
-#include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Output/EventsTab.h"
-#include "Mixer/Widgets/Cards.h"
-#include "Mixer/Widgets/Parts.h"
 #include "Mixer/Window/MixerFiles.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/PageLink.h"
-#include "Scene/Drawing/BodyEdits.h"
-#include <functional>
-#include <string>
 
 namespace physvib {
 

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Buttons and controls that show and change the selected tool, material and bodies.
 #include "Mixer/World/DrawBar.h"
-#include "Host/Views/Look.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/Drawing/FeltTrial.h"
 #include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
 
 namespace physvib {
 

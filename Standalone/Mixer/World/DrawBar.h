@@ -3,10 +3,8 @@
 #pragma once
 #include "Mixer/Widgets/Parts.h"
 #include "Mixer/World/DrawPane.h"
-#include <memory>
 #include <set>
 #include <tuple>
-#include <vector>
 
 namespace physvib {
 

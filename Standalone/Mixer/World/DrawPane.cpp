@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing tools, selection and mouse input.
 #include "Mixer/World/DrawPane.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Widgets/Parts.h"
 #include "Pictures/ShapeOutline.h"
-#include "Scene/Drawing/BodyEdits.h"
 #include "Scene/Drawing/BodyMotion.h"
 #include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 

@@ -2,13 +2,8 @@
 // Drawing layer over the view of the world: selection, handles, and shapes being drawn.
 #pragma once
 #include "Host/Views/WorldView.h"
-#include "Mixer/Model/MixerModel.h"
 #include "Mixer/World/DrawTools.h"
-#include "Mixer/World/Rain.h"
 #include "Scene/Drawing/BodyEdits.h"
-#include <array>
-#include <juce_gui_basics/juce_gui_basics.h>
-#include <optional>
 
 namespace physvib {
 

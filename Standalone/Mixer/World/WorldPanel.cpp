@@ -2,12 +2,8 @@
 // What hands do in the world becomes inputs of the session.
 #include "Mixer/World/WorldPanel.h"
 #include "Core/NameNumbers.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Scene/SceneEdits.h"
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 namespace physvib {
 namespace {

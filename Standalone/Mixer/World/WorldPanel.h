@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panel of the world with its controls: the strongest impact in words, tilt, drag strength, panning law.
 #pragma once
-#include "Host/Views/WorldView.h"
-#include "Mixer/Model/MixerModel.h"
-#include "Mixer/Model/MixerWorld.h"
-#include "Mixer/Widgets/MasterStrip.h"
-#include "Mixer/Widgets/Parts.h"
 #include "Mixer/World/DrawBar.h"
 #include "Scene/World/ScenePlayer.h"
-#include <optional>
 
 namespace physvib {
 
