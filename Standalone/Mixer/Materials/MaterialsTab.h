@@ -137,7 +137,10 @@ struct MaterialColumns {
 inline juce::String frequencyText(double hz) { return number(hz, 1); }
 inline juce::String decayText(double perSecond) { return number(perSecond, 2); }
 
-class MaterialsTab final : public Tab, public juce::FileDragAndDropTarget, private juce::AsyncUpdater {
+class MaterialsTab final : public Tab,
+                           public juce::FileDragAndDropTarget,
+                           private juce::ListBoxModel,
+                           private juce::AsyncUpdater {
 public:
     /// While the tab is visible, a click in `world` plays the selected material there.
     MaterialsTab(MixerModel& model, WorldView& world);
@@ -170,25 +173,17 @@ public:
     int minHeight(int) const override { return 260; } // with the plots of a recording
 
 private:
-    /// One row per material; materials with a frequency first.
-    class Rows final : public juce::ListBoxModel {
-    public:
-        explicit Rows(MaterialsTab& tab)
-            : tab_{tab} {}
-        int getNumRows() override { return static_cast<int>(tab_.order_.size()); }
-        void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
-        void listBoxItemClicked(int row, const juce::MouseEvent& e) override;
-        void listBoxItemDoubleClicked(int row, const juce::MouseEvent& e) override;
-        void returnKeyPressed(int) override { tab_.typeFrequency(); }
-        void selectedRowsChanged(int) override { tab_.showChosen(); }
-        juce::String getNameForRow(int row) override;
-        juce::String getTooltipForRow(int) override {
-            return "A double click on its name, or its dot: name and colour";
-        }
-
-    private:
-        MaterialsTab& tab_;
-    };
+    // one row per material; materials with a frequency first
+    int getNumRows() override { return static_cast<int>(order_.size()); }
+    void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
+    void listBoxItemClicked(int row, const juce::MouseEvent& e) override;
+    void listBoxItemDoubleClicked(int row, const juce::MouseEvent& e) override;
+    void returnKeyPressed(int) override { typeFrequency(); }
+    void selectedRowsChanged(int) override { showChosen(); }
+    juce::String getNameForRow(int row) override;
+    juce::String getTooltipForRow(int) override {
+        return "A double click on its name, or its dot: name and colour";
+    }
     /// Arrow keys change the value by 1 %.
     class RatioSlider final : public juce::Slider {
     public:
@@ -224,8 +219,7 @@ private:
     FieldShare spot_{0.5, 0.5};
     bool isDropping_ = false;
 
-    Rows rows_{*this};
-    juce::ListBox list_{"Materials", &rows_};
+    juce::ListBox list_{"Materials", this};
     RatioSlider frequency_, decay_;
     TextureRow texture_;
     juce::Slider spotX_, spotY_;

@@ -13,6 +13,31 @@ namespace {
 
 constexpr double maintainMs = 1000.0;
 
+bool isWithout(const Mix& mix, std::size_t strip) {
+    return strip < mix.strips.size() && mix.strips[strip].output < 0;
+}
+
+juce::String labelsOf(const MixerModel& model, const std::vector<std::size_t>& strips) {
+    juce::StringArray labels;
+    for (const std::size_t j : strips) labels.add(labelOf(model.mix(), j));
+    return labels.joinIntoString(", ");
+}
+
+void giveFreeOutputs(MixerModel& model, const std::vector<std::size_t>& strips) {
+    const auto inUse = model.device().choice().inUse();
+    const int outputs = model.device().outputs() > 0 ? model.device().outputs() : mostStripOutputs;
+    model.change("Free outputs", [&](Mix& mix) {
+        for (const std::size_t j : strips)
+            if (isWithout(mix, j)) mix.strips[j].output = freeOutput(mix.strips, inUse, outputs);
+    });
+    if (std::ranges::any_of(strips, [&](std::size_t j) { return isWithout(model.mix(), j); }))
+        model.report("The device has no other free output");
+}
+
+int earOf(std::size_t strip) { return strip < DeviceChoice::ears ? static_cast<int>(strip) : -1; }
+
+constexpr double holdMs = 1500.0;
+
 } // namespace
 
 std::string MixerDevice::open(const DeviceChoice& choice) {
@@ -40,8 +65,7 @@ std::vector<int> MixerDevice::outputMap() const {
 }
 
 std::string MixerDevice::assign() {
-    rig_.output().hear(listening_.ofStudyOnly()); // remove monitor outputs first, because an actuator may be
-                                                  // assigned to one of them
+    rig_.output().hear(listening_.ofStudyOnly()); // first, as an actuator may get a monitor output
     auto error = rig_.output().assign(outputMap(), mix_.count());
     listening_.hearWanted();
     return error;
@@ -61,10 +85,8 @@ void MixerDevice::maintain() {
     rig_.maintain();
 }
 
-std::vector<RigTrouble> MixerDevice::troubles() const { return rig_.troubles(); }
-
 juce::String MixerDevice::trouble() const {
-    const auto all = troubles();
+    const auto all = rig_.troubles();
     return all.empty() ? juce::String{} : utf8(all.front().words);
 }
 
@@ -131,31 +153,6 @@ std::string MixerListening::mark(int output) {
     return listen(wanted, choice);
 }
 
-namespace {
-
-bool isWithout(const Mix& mix, std::size_t strip) {
-    return strip < mix.strips.size() && mix.strips[strip].output < 0;
-}
-
-juce::String labelsOf(const MixerModel& model, const std::vector<std::size_t>& strips) {
-    juce::StringArray labels;
-    for (const std::size_t j : strips) labels.add(utf8(model.mix().layout.enchanters[j].label));
-    return labels.joinIntoString(", ");
-}
-
-void giveFreeOutputs(MixerModel& model, const std::vector<std::size_t>& strips) {
-    const auto inUse = model.device().choice().inUse();
-    const int outputs = model.device().outputs() > 0 ? model.device().outputs() : mostStripOutputs;
-    model.change("Free outputs", [&](Mix& mix) {
-        for (const std::size_t j : strips)
-            if (isWithout(mix, j)) mix.strips[j].output = freeOutput(mix.strips, inUse, outputs);
-    });
-    if (std::ranges::any_of(strips, [&](std::size_t j) { return isWithout(model.mix(), j); }))
-        model.report("The device has no other free output");
-}
-
-} // namespace
-
 void showPlayedOutputs(const std::vector<int>& played, std::span<Strip> strips) {
     for (std::size_t j = 0; j < strips.size(); ++j) strips[j].output = j < played.size() ? played[j] : -1;
 }
@@ -192,10 +189,6 @@ void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips) {
           }},
          noEarLabel});
 }
-
-namespace {
-int earOf(std::size_t strip) { return strip < DeviceChoice::ears ? static_cast<int>(strip) : -1; }
-} // namespace
 
 std::string useHeadphones(MixerModel& model, DeviceChoice choice, std::optional<std::vector<int>> before) {
     if (!model.device().choice().isHeadphones)
@@ -262,12 +255,6 @@ void MixerExposure::update() {
     sums_ = now;
 }
 
-namespace {
-
-constexpr double holdMs = 1500.0;
-
-} // namespace
-
 void MixerSignals::setRate(int sampleRateHz) {
     scope_.setRate(sampleRateHz);
     spectrum_.setRate(sampleRateHz);
@@ -315,7 +302,7 @@ void MixerSignals::measure(const float* const* block, int frames, MixerMoment& m
     if (scenePerFrame_ > 0.0) run_.add(block, enchanters, frames, frames * scenePerFrame_);
     for (int j = 0; j < enchanters; ++j) {
         const auto range = juce::FloatVectorOperations::findMinAndMax(block[j], frames);
-        auto& peak = moment.meters.peaks[static_cast<std::size_t>(j)];
+        auto& peak = nth(moment.meters.peaks, j);
         peak = std::max({peak, -range.getStart(), range.getEnd()});
     }
 }
@@ -336,7 +323,7 @@ void SpectrumTrace::add(const float* const* channels, int count, int frames) {
             Lane& lane = lanes_[j];
             for (int k = done; k < done + part; ++k) lane.sum += channels[j][k];
             if (isFull)
-                lane.kept[static_cast<std::size_t>(newest_)] =
+                nth(lane.kept, newest_) =
                     std::exchange(lane.sum, 0.0f) / static_cast<float>(framesPerSample_);
         }
         done += part;
@@ -346,7 +333,7 @@ void SpectrumTrace::add(const float* const* channels, int count, int frames) {
 }
 
 std::vector<double> SpectrumTrace::recent(int channel) const {
-    const auto& kept = lanes_[static_cast<std::size_t>(channel)].kept;
+    const auto& kept = nth(lanes_, channel).kept;
     if (std::ranges::all_of(kept, [](float x) { return std::abs(x) < 1e-4f; })) return {};
     std::vector<double> samples(kept.begin() + newest_, kept.end());
     samples.insert(samples.end(), kept.begin(), kept.begin() + newest_);

@@ -8,10 +8,10 @@
 #include "Live/Devices/DeviceMeters.h"
 #include "Live/Devices/SinkTable.h"
 #include "Live/Devices/Taps.h"
-#include "Live/Documents/Mix.h"
 #include "Live/Documents/Strip.h"
 #include "Live/Rig/Rig.h"
 #include "Live/Session/SessionSetup.h"
+#include "Mixer/Model/MixerMessages.h"
 #include "Pictures/WaveformEnvelope.h"
 #include "Scene/LayoutFile.h"
 #include "Stimuli/Stimulus.h"
@@ -19,12 +19,9 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <juce_core/juce_core.h>
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace physvib {
@@ -90,6 +87,11 @@ struct DeviceChoice {
     }
 };
 
+/// Both of them. Any thread.
+inline SampleRange united(const SampleRange& a, const SampleRange& b) {
+    return {std::min(a.lowest, b.lowest), std::max(a.highest, b.highest)};
+}
+
 /// The last second of every channel, as minimum and maximum of each scope column. Message thread.
 class ScopeTrace {
 public:
@@ -116,10 +118,8 @@ public:
             const int part = std::min(frames - done, framesPerColumn_ - filled_);
             for (int j = 0; j < count; ++j) {
                 const auto [low, high] = std::minmax_element(channels[j] + done, channels[j] + done + part);
-                SampleRange& column = lanes_[static_cast<std::size_t>(j)][static_cast<std::size_t>(newest_)];
-                column = filled_ == 0
-                             ? SampleRange{*low, *high}
-                             : SampleRange{std::min(column.lowest, *low), std::max(column.highest, *high)};
+                SampleRange& column = nth(nth(lanes_, j), newest_);
+                column = filled_ == 0 ? SampleRange{*low, *high} : united(column, {*low, *high});
             }
             done += part;
             filled_ += part;
@@ -132,8 +132,7 @@ public:
 
     /// Column `index` of a channel; 0 is the oldest.
     SampleRange at(int channel, int index) const {
-        return lanes_[static_cast<std::size_t>(channel)]
-                     [static_cast<std::size_t>((newest_ + 1 + index) % columns)];
+        return nth(nth(lanes_, channel), (newest_ + 1 + index) % columns);
     }
 
     /// What a trace of so many pixels has at pixel `x`: all of its columns, and the one before, since half a
@@ -142,9 +141,7 @@ public:
         const auto columnOf = [width](int pixel) { return pixel * (columns - 1) / std::max(1, width); };
         const int first = columnOf(x), last = std::max(first, columnOf(x + 1) - 1);
         SampleRange range = at(channel, first);
-        for (int k = std::max(0, first - 1); k <= last; ++k)
-            range = {std::min(range.lowest, at(channel, k).lowest),
-                     std::max(range.highest, at(channel, k).highest)};
+        for (int k = std::max(0, first - 1); k <= last; ++k) range = united(range, at(channel, k));
         return range;
     }
 
@@ -162,8 +159,7 @@ class SpectrumTrace {
 public:
     /// A quarter of a second, which gives a resolution of 8 Hz.
     static constexpr int window = 2048;
-    static constexpr int keptRateHz = 8000; ///< minimum rate after decimation; sufficient for 1 kHz at an
-                                            ///< eighth of the cost
+    static constexpr int keptRateHz = 8000; ///< at least; enough for 1 kHz at an eighth of the cost
 
     SpectrumTrace() { setRate(48000); }
     /// Clears the buffers.
@@ -217,7 +213,7 @@ public:
             for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
                 const auto [low, high] = std::minmax_element(channels[j] + done, channels[j] + done + part);
                 SampleRange& column = lanes_[j][at];
-                column = {std::min(column.lowest, *low), std::max(column.highest, *high)};
+                column = united(column, {*low, *high});
             }
             done += part;
             seconds_ += part * perFrame;
@@ -232,8 +228,8 @@ public:
         const auto first = static_cast<std::size_t>(std::max(0.0, from / columnSeconds_));
         for (std::size_t i = first;
              i < columns && (i == first || static_cast<double>(i) * columnSeconds_ < to); ++i) {
-            const SampleRange& column = lanes_[static_cast<std::size_t>(channel)][i];
-            all = {std::min(all.lowest, column.lowest), std::max(all.highest, column.highest)};
+            const SampleRange& column = nth(lanes_, channel)[i];
+            all = united(all, column);
         }
         return all;
     }
@@ -242,9 +238,7 @@ private:
     void widen() {
         columnSeconds_ *= 2.0;
         for (auto& lane : lanes_) {
-            for (std::size_t i = 0; i < columns / 2; ++i)
-                lane[i] = {std::min(lane[2 * i].lowest, lane[2 * i + 1].lowest),
-                           std::max(lane[2 * i].highest, lane[2 * i + 1].highest)};
+            for (std::size_t i = 0; i < columns / 2; ++i) lane[i] = united(lane[2 * i], lane[2 * i + 1]);
             std::fill(lane.begin() + columns / 2, lane.end(), SampleRange{});
         }
     }
@@ -342,7 +336,7 @@ public:
         , mix_{mix}
         , listening_{rig.output(), mix, choice_, std::move(onChange)} {}
 
-    /// Opens a device. Empty, or an error, which troubles() has too.
+    /// Opens a device. Empty, or an error, which Rig::troubles() has too.
     std::string open(const DeviceChoice& choice);
 
     /// The chosen device and the available ones. outputs(): number of its outputs.
@@ -373,7 +367,6 @@ public:
 
     /// Checks the sinks; to be called often.
     void maintain();
-    std::vector<RigTrouble> troubles() const; ///< see Rig
     /// Why the device, or else a sink, does not play, whatever message is shown; empty: it plays.
     juce::String trouble() const;
 
@@ -412,8 +405,7 @@ void takeOffHeadphones(const DeviceChoice& choice, int outputs, std::span<Strip>
                        std::size_t first = 0);
 void leaveHeadphones(MixerModel& model, const DeviceChoice& ears);
 
-/// Reports strips for which headphones have no output, with a button that leaves two actuators. Message
-/// thread.
+/// Reports strips for which headphones have no output, with a button that leaves two. Message thread.
 void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips);
 constexpr const char *noEarLabel = "ears", *noOutputLabel = "outputs"; ///< of that message, and the next
 

@@ -5,7 +5,6 @@
 #include "Live/Documents/SessionFile.h"
 #include "Mixer/Model/MixerDevice.h"
 #include "Mixer/Model/MixerInputs.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerRecording.h"
 
 namespace physvib {
@@ -15,8 +14,7 @@ class SentMix;
 /// Message thread. Listeners are notified when the mixer state, the device or the error message changes.
 class MixerModel final : public juce::ChangeBroadcaster {
 public:
-    static constexpr int channels = limits::maxEnchanters; ///< of the session: the maximum number of
-                                                           ///< actuators
+    static constexpr int channels = limits::maxEnchanters; ///< of the session: the most actuators
 
     /// Plays `mix` on `device`, one of `types`; trouble() reports a failure. Sample rate and block size stay
     /// until another device is opened.
@@ -39,8 +37,7 @@ public:
     juce::UndoManager& undoManager() noexcept { return history_->undo; }
     /// For a model that begins with this one's mix and drawing.
     std::shared_ptr<MixerHistory> history() const { return history_; }
-    bool attach(double shareX, double shareY); ///< at shares of the field, at a low level; false if there is
-                                               ///< no channel left
+    bool attach(double shareX, double shareY); ///< at shares of the field, quietly; false: no channel is left
     void detach(int enchanter);                ///< the last actuator cannot be detached
 
     std::uint64_t edits() const noexcept { return edits_; } ///< inputs included; for unsaved changes
@@ -87,7 +84,6 @@ private:
     void edited(bool isShown = true);
 
     void watchOutput();
-    void beginWorld(bool isSameScene);
     bool apply(const Mix& next); // false: it was refused, and nothing has changed
     void showSilence();
     void collectPlayed();

@@ -57,7 +57,6 @@ std::vector<Fact> telemetryFacts(const MixerModel& model, const MixerMoment& mom
 class OutputTab final : public Tab {
 public:
     explicit OutputTab(MixerModel& model);
-    ~OutputTab() override;
     void mixChanged() override;
     void refresh(const MixerMoment& moment) override;
     void resized() override;
@@ -65,7 +64,9 @@ public:
         constexpr int controls = 18 + rowHeight + 3 * (28 + rowHeight) + 12;
         return controls + facts_.heightFor(width);
     }
-    void visibilityChanged() override;
+    void visibilityChanged() override {
+        if (isVisible() && !isScanned_) scan();
+    }
     /// Sets the receiver HOST:PORT as if typed; empty: none.
     void sendHitsTo(const juce::String& receiver);
 
@@ -112,7 +113,7 @@ private:
     bool isScanned_ = false;
 };
 
-class EnchantersTab final : public Tab {
+class EnchantersTab final : public Tab, private juce::ListBoxModel {
 public:
     /// `world` shows the gain map of the actuator selected here.
     EnchantersTab(MixerModel& model, WorldView& world);
@@ -130,23 +131,14 @@ private:
         using AttachButton::AttachButton;
         void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
     };
-    /// One row per actuator.
-    class Rows final : public juce::ListBoxModel {
-    public:
-        explicit Rows(EnchantersTab& tab)
-            : tab_{tab} {}
-        int getNumRows() override { return tab_.model_.mix().count(); }
-        void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
-        void selectedRowsChanged(int row) override { tab_.choose(row); }
-        void deleteKeyPressed(int row) override { tab_.model_.detach(row); }
-        void listBoxItemDoubleClicked(int row, const juce::MouseEvent&) override { tab_.editRow(row); }
-        void returnKeyPressed(int row) override { tab_.editRow(row); }
-        juce::String getNameForRow(int row) override;
-
-    private:
-        EnchantersTab& tab_;
-    };
-    void choose(int enchanter);
+    // one row per actuator
+    int getNumRows() override { return model_.mix().count(); }
+    void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
+    void selectedRowsChanged(int row) override;
+    void deleteKeyPressed(int row) override { model_.detach(row); }
+    void listBoxItemDoubleClicked(int row, const juce::MouseEvent&) override { editRow(row); }
+    void returnKeyPressed(int row) override { editRow(row); }
+    juce::String getNameForRow(int row) override;
     void usePreset();
     void applyRow(std::size_t i, const std::string& label, const std::string& profile, double fullScaleG);
 
@@ -161,8 +153,7 @@ private:
     Caption presetName_{"Preset"}, lawName_{"Law"}, exponentName_{"Exponent"},
         hint_{"Drag a badge to move it; out of the field: detached."};
     juce::ToggleButton maps_{"Show on the field what it plays of a hit at each place"};
-    Rows rows_{*this};
-    juce::ListBox list_{"Actuators", &rows_};
+    juce::ListBox list_{"Actuators", this};
     std::unique_ptr<juce::TextButton> detach_, edit_;
 };
 

@@ -61,7 +61,6 @@ private:
     template <class Change>
     void change(const juce::String& name, Change change, bool continuesEdit = false);
     void rename();
-    void remove();
 
     MixerModel& model_;
     const std::size_t index_;
@@ -82,7 +81,7 @@ public:
     int widthFor(int strip) const; ///< with all strips in sight, each so wide
     /// Opens the list of outputs of a strip.
     void showOutputs(int enchanter);
-    void paint(juce::Graphics& g) override;
+    void paint(juce::Graphics& g) override { drawPanel(g, *this); }
     void resized() override;
     void focusOfChildComponentChanged(FocusChangeType) override; ///< scrolls to the focused strip
 

@@ -17,7 +17,6 @@ public:
     AnalysisScreen(MixerModel& model, const std::vector<juce::File>& files);
     /// Shows this report instead, under that title.
     AnalysisScreen(MixerModel& model, const juce::String& title, AnalysisReport report);
-    ~AnalysisScreen() override;
 
     std::function<void()> onClose;
 
@@ -32,8 +31,10 @@ public:
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
-    void parentSizeChanged() override;
-    void parentHierarchyChanged() override;
+    void parentSizeChanged() override {
+        if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
+    }
+    void parentHierarchyChanged() override { showWords(); }
 
 private:
     AnalysisScreen(MixerModel& model, const juce::String& title);
@@ -114,8 +115,6 @@ public:
 private:
     static constexpr int controlsHeight = 256; // with a line of advice
     void pickProtocol();
-    void browseProtocol();
-    void browseFolder();
     static bool isDone(const StudyRun& run, const std::vector<TrialRecord>& records);
     void offerLayout();
     void offerLevel(double db);
@@ -123,7 +122,6 @@ private:
     void look();
     void listNoise();
     void pickWords();
-    void browseWords();
     ListeningSettings listening() const;
     void say(const juce::String& words, Shade shade);
     void stopCheck();

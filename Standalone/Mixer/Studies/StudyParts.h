@@ -97,8 +97,8 @@ public:
     }
     ~StudyAnswer() override { juce::Desktop::getInstance().removeFocusChangeListener(this); }
 
-    std::function<void()> onAnswer; ///< an answer was chosen
-    std::function<void()> onChange; ///< isComplete() may have changed
+    std::function<void()> onAnswer = [] {}; ///< an answer was chosen
+    std::function<void()> onChange = [] {}; ///< isComplete() may have changed
 
     /// The current answer; unused fields keep their defaults.
     virtual Answer answer() const = 0;
@@ -135,19 +135,15 @@ private:
 /// until it is confirmed.
 class ChosenAnswer : public StudyAnswer {
 public:
-    Answer answer() const override {
-        Answer answer;
-        answer.response = response_;
-        return answer;
-    }
+    Answer answer() const override { return {.response = response_, .place = {}, .scores = {}}; }
     bool isComplete() const override { return !response_.empty(); }
 
 protected:
     void choose(std::string response) {
         response_ = std::move(response);
         showChosen(response_);
-        if (onChange) onChange();
-        if (onAnswer) onAnswer();
+        onChange();
+        onAnswer();
     }
     virtual void showChosen(const std::string& response) = 0;
 
@@ -176,7 +172,7 @@ class StudyAnswerPane final : public juce::Component {
 public:
     explicit StudyAnswerPane(const StudyWords& words);
 
-    std::function<void()> onConfirm;
+    std::function<void()> onConfirm = [] {};
     /// Handles keys that no control here used.
     std::function<bool(const juce::KeyPress&)> onKey;
 

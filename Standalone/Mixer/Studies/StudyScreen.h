@@ -62,8 +62,7 @@ private:
 
     MixerModel& model_;
     int slowness_;
-    double beganAtMs_ = 0.0, ranAtMs_ = 0.0, seconds_ = 0.0, heldSeconds_ = 0.0; // held: felt when it was
-                                                                                 // over
+    double beganAtMs_ = 0.0, ranAtMs_ = 0.0, seconds_ = 0.0, heldSeconds_ = 0.0; // held: when it was over
     std::vector<float> gains_;                                                   // last posted values
     Course course_ = Course::none;
     bool isMuted_ = false;                  // by stop()
@@ -77,8 +76,7 @@ private:
 
 /// Sends study events as markers of the Lab Streaming Layer, to synchronise recordings of EEG, force or gaze.
 /// liblsl is optional and looked up when a study starts; without it no markers are sent.
-/// One stream: name "physvib-PROTOCOL", type "Markers", one text channel with irregular rate. Message thread
-/// only.
+/// One stream: name "physvib-PROTOCOL", type "Markers", a text channel of irregular rate. Message thread.
 class StudyMarkers {
 public:
     explicit StudyMarkers(const std::string& protocol);
@@ -86,7 +84,8 @@ public:
     StudyMarkers(const StudyMarkers&) = delete;
     StudyMarkers& operator=(const StudyMarkers&) = delete;
 
-    bool isOpen() const noexcept; ///< liblsl was found and the stream was created
+    /// liblsl was found and the stream was created.
+    bool isOpen() const noexcept { return outlet_ != nullptr; }
 
     /// Sends a line at a time relative to now (negative: in the past), on LSL's clock.
     void push(const std::string& words, double secondsFromNow = 0.0);
@@ -184,7 +183,7 @@ public:
         return hasHands_ && world_.isMoving() && tilt_.handleKey(key);
     }
 
-    void paint(juce::Graphics& g) override;
+    void paint(juce::Graphics& g) override { drawPanel(g, *this); }
     void resized() override;
 
 private:
@@ -203,7 +202,6 @@ public:
     /// With `answersElsewhere`, answers are given in a separate window, on another display if there is one.
     StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> study, Words words = {},
                 bool answersElsewhere = false, std::vector<MaterialPicture> pictures = {});
-    ~StudyScreen() override;
 
     /// Called when the participant has finished or leaves; all answers are in the file.
     std::function<void()> onClose;
@@ -226,7 +224,9 @@ public:
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
-    void parentSizeChanged() override;
+    void parentSizeChanged() override {
+        if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
+    }
 
 private:
     void showNext();
@@ -235,7 +235,7 @@ private:
     void showParts();
     void previewWorld();
     void fail(const std::string& reason);
-    void note(std::string_view event); ///< into the file of times
+    void note(std::string_view event) { model_.reportFault(study_->note(event)); } ///< into the file of times
     void goOn();
     void leave();
     void play(std::size_t part);
@@ -253,8 +253,8 @@ private:
     std::string markerWords(const char* what) const;
     double exposure() const;
     bool isExposed() const { return exposure() >= study_->protocol().exposureLimit; }
-    bool isExploring() const;
-    bool canAnswer() const;
+    bool isExploring() const { return experiment().session().answer() == AnswerKind::wish; }
+    bool canAnswer() const { return progress_->canAnswer() && !isFeeling(); }
     bool isTimeOver();
     const WorldSet* worldSet() const {
         return page_ == Page::trial && !experiment().session().isOnce
@@ -270,11 +270,10 @@ private:
     double feltSeconds() const {
         return worldSet() != nullptr ? pane_.world().feltSeconds() : sound_.feltSeconds();
     }
-    double restLeft() const;
+    double restLeft() const { return std::max(0.0, 1e-3 * (restEndsMs_ - nowMs())); }
     std::size_t nextPart() const;
     void updateTrial();
     void updateParts();
-    void updatePause();
     void placeTrial(juce::Rectangle<int> area);
     void drawMaterials(juce::Graphics& g) const;
     /// Materials of the session's worlds, by the names of stimuli and objects.
@@ -288,8 +287,7 @@ private:
     const std::vector<MaterialPicture> pictures_;
     StudySound sound_;
     StudyWorldPane pane_;
-    const double squaresBefore_; // exposure of the participant's day in g^2 s, before what the mixer measures
-                                 // from now on
+    const double squaresBefore_; // of the participant's day in g^2 s, before what is measured from now on
     StudyAnswerPane answers_;
     StudyMarkers markers_;
     const juce::String troubleBefore_;           // told to the experimenter, not to the participant

@@ -71,8 +71,7 @@ public:
 
     /// Vibration exposure from this mixer today, in g^2 s, weighted. Stored between runs, even after a crash.
     double exposureToday() const;
-    void setExposureToday(double squareGSeconds, bool isLast = false); ///< written at intervals, and at the
-                                                                       ///< end
+    void setExposureToday(double squareGSeconds, bool isLast = false); ///< written now and then, and at last
 
     /// Folder of the user's scenes.
     juce::File scenesFolder() const { return folder_.getChildFile("scenes"); }

@@ -16,11 +16,11 @@ public:
 
     void refresh(const MixerMoment& moment);
     void mixChanged(); ///< the mixer state changed
-    void togglePause();
+    void togglePause() { model_.setSlowness(model_.session().world().slowness() == 0 ? 1 : 0); }
 
-    std::function<void(juce::Component& from)> onMenu;
-    std::function<void()> onRecord, onSave, onOpenScene, onDevice;
-    std::function<void(const juce::File&)> onOwnScene;
+    std::function<void(juce::Component& from)> onMenu = [](juce::Component&) {};
+    std::function<void()> onRecord = [] {}, onSave = [] {}, onOpenScene = [] {}, onDevice = [] {};
+    std::function<void(const juce::File&)> onOwnScene = [](const juce::File&) {};
     void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below the built-in ones
     void setRecording(bool isRecording);                     ///< counts its seconds
     void setDocument(const juce::String& name) { save_.setTooltip("Save " + name + " (Ctrl+S)"); }
@@ -28,7 +28,7 @@ public:
     void setShow(bool isShow);
     /// Without the controls of an engineer.
     void setPlay(bool isPlay);
-    std::function<void()> onMode; ///< the other mode is wanted
+    std::function<void()> onMode = [] {}; ///< the other mode is wanted
 
     static constexpr int lineHeight = 52, showWidth = WorldPanel::silenceWidth;
     /// One line, or two in a narrow window, or where a board has something to say there.
@@ -36,12 +36,13 @@ public:
         return isPlay_ || width >= (hasBoard_ ? minFacts : minOneLine) ? lineHeight : lineHeight + secondLine;
     }
 
-    void paint(juce::Graphics& g) override;
+    void paint(juce::Graphics& g) override {
+        if (!isShow_) g.fillAll(shade(*this, Shade::panel));
+    }
     void resized() override;
 
 private:
-    static constexpr int minOneLine = 1260, minFacts = 1400, secondLine = 24; // with load and board in it,
-                                                                              // too
+    static constexpr int minOneLine = 1260, minFacts = 1400, secondLine = 24; // facts: load and board, too
     void placeStates(juce::Rectangle<int> area);
     void showControls();
     bool isShow_ = false, isPlay_ = false, isToldOfLoad_ = false;
@@ -177,7 +178,7 @@ public:
     void mouseUp(const juce::MouseEvent&) override { drawCurtain(); }
     void mouseDrag(const juce::MouseEvent& e) override { releaseAtRightClick(e); }
     bool keyPressed(const juce::KeyPress& key) override;
-    void paint(juce::Graphics& g) override;
+    void paint(juce::Graphics& g) override { g.fillAll(shade(*this, Shade::ground)); }
     void paintOverChildren(juce::Graphics& g) override;
     void resized() override;
 

@@ -122,7 +122,7 @@ private:
     void chooseFolder();
     juce::File folderOfDocuments() const;
     juce::String documentName() const;
-    double playedSeconds() const;
+    double playedSeconds() const { return 1e-9 * static_cast<double>(model_->saved().lengthNs); }
     void make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work);
 
     AudioDrivers drivers_;

@@ -139,10 +139,7 @@ void Rain::spawnDueBodies() {
         falling_.pop_back();
     }
     if (actions.empty()) return;
-    if (const auto error = model_.world().edit(rainStep, std::move(actions), true); !error.empty()) {
-        falling_.clear();
-        return model_.report(utf8(error));
-    }
+    if (model_.reportFault(model_.world().edit(rainStep, std::move(actions), true))) return falling_.clear();
     if (isFirst) hintOnBody(model_, name);
 }
 

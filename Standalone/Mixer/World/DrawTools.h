@@ -61,7 +61,7 @@ inline bool isJoint(DrawTool tool) {
            tool == DrawTool::slider || tool == DrawTool::motor;
 }
 
-inline const DrawToolWords& wordsOf(DrawTool tool) { return drawTools[static_cast<std::size_t>(tool)]; }
+inline const DrawToolWords& wordsOf(DrawTool tool) { return nth(drawTools, tool); }
 
 /// Icon around (0, 0), within 9 pixels in each direction.
 juce::Path signOf(DrawTool tool);
