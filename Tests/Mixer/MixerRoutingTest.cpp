@@ -4,7 +4,7 @@
 #include "Host/FakeAudioDevice.h"
 #include "Live/Documents/SessionFile.h"
 #include "Mixer/Model/MixerDevice.h"
-#include "Mixer/Output/TelemetryTab.h"
+#include "Mixer/Output/OutputTab.h"
 #include "MixerTesting.h"
 #include "Stimuli/SeededRandom.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Spectra, events and telemetry: what is played is what they show.
 #include "Host/FakeAudioDevice.h"
-#include "Mixer/Output/TelemetryTab.h"
+#include "Mixer/Output/OutputTab.h"
 #include "Mixer/Strips/ScopeView.h"
 #include "MixerTesting.h"
 #include <cmath>

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws recordings in the material's colour, and the fitted mode in the accent colour.
-#include "Mixer/Materials/MaterialParts.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/PartialFit.h"
 #include "Measure/Spectrum.h"
+#include "Mixer/Materials/MaterialsTab.h"
 #include "Scene/SceneFields.h"
-#include <algorithm>
 #include <juce_audio_basics/juce_audio_basics.h>
 #include <numbers>
 
@@ -16,8 +15,7 @@ namespace {
 constexpr int headHeight = 18;
 
 juce::Rectangle<int> drawWell(juce::Graphics& g, const juce::Component& c) {
-    g.setColour(shade(c, Shade::well));
-    g.fillRoundedRectangle(c.getLocalBounds().toFloat(), 5.0f);
+    fillRound(g, c, Shade::well, c.getLocalBounds().toFloat(), 5.0f);
     return c.getLocalBounds().reduced(8, 4);
 }
 
@@ -45,6 +43,49 @@ juce::String measured(double value, double error, const juce::String& unit) {
 juce::Colour legible(const juce::Component& c, juce::Colour colour) {
     return shade(c, Shade::panel).getPerceivedBrightness() > 0.5f ? colour.withMultipliedBrightness(0.75f)
                                                                   : colour.brighter(0.15f);
+}
+
+constexpr double longestSeconds = 1.0;
+
+HitCourse courseFrom(std::vector<float> samples, double rateHz) {
+    HitCourse course{rateHz, std::move(samples)};
+    float peak = 1e-9f;
+    for (const float x : course.samples) peak = std::max(peak, std::abs(x));
+    for (float& x : course.samples) x /= peak;
+    const auto heights = magnitudes(std::vector<double>(course.samples.begin(), course.samples.end()));
+    const double binHz = rateHz / (2.0 * static_cast<double>(heights.size() - 1));
+    const auto first = static_cast<std::size_t>(FrequencyAxis::lowHz / binHz),
+               last = std::min(heights.size(), static_cast<std::size_t>(FrequencyAxis::highHz / binHz) + 2);
+    const double highest = first < last
+                               ? *std::max_element(heights.begin() + static_cast<std::ptrdiff_t>(first),
+                                                   heights.begin() + static_cast<std::ptrdiff_t>(last))
+                               : 1.0;
+    course.levels = spectrumLevels(heights, binHz, std::max(highest, 1e-12));
+    return course;
+}
+
+// limits of perception at speeds of hands and balls
+constexpr double lowGrainMetres = 0.0005, highGrainMetres = 0.2;
+constexpr double minRoughness = 0.001, lowRoughness = 0.05, highRoughness = 20.0;
+
+juce::String grainText(double metres) {
+    if (metres <= 0.0) return "smooth";
+    const double mm = 1e3 * metres;
+    return "grain " + (metres < 1.0 ? number(mm, mm < 1.0     ? 2
+                                                 : mm < 100.0 ? 1
+                                                              : 0) +
+                                          " mm"
+                                    : number(metres, 2) + " m");
+}
+
+double numberOf(const juce::String& words) {
+    return words.retainCharacters("0123456789.,").replaceCharacter(',', '.').getDoubleValue();
+}
+
+/// Parses millimetres, or metres if the text says so.
+double grainOf(const juce::String& words) {
+    const auto text = words.trim();
+    return text.endsWith("m") && !text.endsWith("mm") ? numberOf(text) : 1e-3 * numberOf(text);
 }
 
 } // namespace
@@ -148,29 +189,6 @@ void CoursePlot::paint(juce::Graphics& g) {
              s && !s->isConfident() ? Shade::now : Shade::accent);
 }
 
-namespace {
-
-constexpr double longestSeconds = 1.0;
-
-HitCourse courseFrom(std::vector<float> samples, double rateHz) {
-    HitCourse course{rateHz, std::move(samples)};
-    float peak = 1e-9f;
-    for (const float x : course.samples) peak = std::max(peak, std::abs(x));
-    for (float& x : course.samples) x /= peak;
-    const auto heights = magnitudes(std::vector<double>(course.samples.begin(), course.samples.end()));
-    const double binHz = rateHz / (2.0 * static_cast<double>(heights.size() - 1));
-    const auto first = static_cast<std::size_t>(FrequencyAxis::lowHz / binHz),
-               last = std::min(heights.size(), static_cast<std::size_t>(FrequencyAxis::highHz / binHz) + 2);
-    const double highest = first < last
-                               ? *std::max_element(heights.begin() + static_cast<std::ptrdiff_t>(first),
-                                                   heights.begin() + static_cast<std::ptrdiff_t>(last))
-                               : 1.0;
-    course.levels = spectrumLevels(heights, binHz, std::max(highest, 1e-12));
-    return course;
-}
-
-} // namespace
-
 Result<RecordedHit> measureHit(const std::filesystem::path& path) {
     const auto name = path.filename().string();
     const auto recording = readRecording(path);
@@ -210,34 +228,6 @@ HitCourse courseOf(double frequencyHz, double decayPerSecond) {
     }
     return courseFrom(std::move(samples), rate);
 }
-
-namespace {
-
-// limits of perception at speeds of hands and balls
-constexpr double lowGrainMetres = 0.0005, highGrainMetres = 0.2;
-constexpr double minRoughness = 0.001, lowRoughness = 0.05, highRoughness = 20.0;
-
-juce::String grainText(double metres) {
-    if (metres <= 0.0) return "smooth";
-    const double mm = 1e3 * metres;
-    return "grain " + (metres < 1.0 ? number(mm, mm < 1.0     ? 2
-                                                 : mm < 100.0 ? 1
-                                                              : 0) +
-                                          " mm"
-                                    : number(metres, 2) + " m");
-}
-
-double numberOf(const juce::String& words) {
-    return words.retainCharacters("0123456789.,").replaceCharacter(',', '.').getDoubleValue();
-}
-
-/// Parses millimetres, or metres if the text says so.
-double grainOf(const juce::String& words) {
-    const auto text = words.trim();
-    return text.endsWith("m") && !text.endsWith("mm") ? numberOf(text) : 1e-3 * numberOf(text);
-}
-
-} // namespace
 
 TextureRow::TextureRow() {
     setTitle("Surface");

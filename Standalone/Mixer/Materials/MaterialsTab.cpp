@@ -2,11 +2,8 @@
 // Controls of the materials tab: list, frequency, decay, surface, test spot; a thread measures recordings.
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 namespace {
@@ -14,6 +11,8 @@ namespace {
 constexpr int rowPixels = 28, headPixels = 20;
 constexpr int tallPixels = 300; // of the tab
 constexpr double arrowRatio = 1.01;
+
+constexpr double decibelsOfDecay = 60.0;
 
 } // namespace
 
@@ -28,7 +27,7 @@ public:
     }
     ~Measuring() override { stopThread(-1); }
     void run() override {
-        hit = measureHit(job.file.getFullPathName().toStdString());
+        hit = measureHit(pathOf(job.file));
         isDone_.triggerAsyncUpdate();
     }
 
@@ -85,8 +84,8 @@ MaterialsTab::MaterialsTab(MixerModel& model, WorldView& world)
              "Plays one hit of the material at the cross in the world; a click in the world plays it there");
     feel_.onClick = [this] { feelAt(spot_); };
     new_ = quietButton("New" + dots(),
-                       "A material of one's own: a copy of the chosen one, with a name and a colour");
-    new_->onClick = [this] { askName(true); };
+                       "A material of one's own: a copy of the chosen one, with a name and a colour",
+                       [this] { askName(true); });
     browse_ = quietButton(
         juce::String::fromUTF8("Recording\xe2\x80\xa6"),
         "Measure frequency and decay from a recording of one hit; it can be dropped here as well");
@@ -116,12 +115,12 @@ void MaterialsTab::prepareSlider(RatioSlider& slider, const juce::String& title,
 
 const Material* MaterialsTab::chosen() const {
     const int index = chosenIndex();
-    return index < 0 ? nullptr : &model_.world().scene().materials[static_cast<std::size_t>(index)];
+    return index < 0 ? nullptr : &nth(model_.world().scene().materials, index);
 }
 
 int MaterialsTab::chosenIndex() const {
     const int row = list_.getSelectedRow();
-    return row >= 0 && row < static_cast<int>(order_.size()) ? order_[static_cast<std::size_t>(row)] : -1;
+    return row >= 0 && row < static_cast<int>(order_.size()) ? nth(order_, row) : -1;
 }
 
 void MaterialsTab::choose(int material) {
@@ -142,9 +141,8 @@ void MaterialsTab::mixChanged() {
         shown_.reset();
         order_.resize(materials.size());
         for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<int>(i);
-        std::stable_partition(order_.begin(), order_.end(), [&](int i) {
-            return materials[static_cast<std::size_t>(i)].frequencyHz > 0.0;
-        });
+        std::stable_partition(order_.begin(), order_.end(),
+                              [&](int i) { return nth(materials, i).frequencyHz > 0.0; });
         list_.updateContent();
         list_.selectRow(0);
     }
@@ -194,9 +192,7 @@ void MaterialsTab::setTexture(const Texture& texture, const juce::String& what, 
     if (material == nullptr) return;
     const TextureAction surface{chosenIndex(), texture.grainMetres, texture.roughness, texture.pattern,
                                 texture.rolling};
-    if (const auto fault = model_.world().edit(what + " of " + utf8(material->name), surface, continuesEdit);
-        !fault.empty())
-        model_.report(utf8(fault));
+    model_.reportFault(model_.world().edit(what + " of " + utf8(material->name), surface, continuesEdit));
 }
 
 void MaterialsTab::typeFrequency() {
@@ -274,7 +270,7 @@ void MaterialsTab::finish(const Job& job, const Result<RecordedHit>& hit) {
     if (job.scene != model_.mix().scene)
         return model_.report(job.file.getFileName() + ": another scene is played now; drop it again");
     const auto& sound = hit.value.sound;
-    const auto name = utf8(model_.world().scene().materials[static_cast<std::size_t>(job.material)].name);
+    const auto name = utf8(nth(model_.world().scene().materials, job.material).name);
     if (const auto fault = model_.world().edit(
             "Recording of " + name, SoundAction{job.material, sound.frequencyHz, sound.decayPerSecond});
         !fault.empty())
@@ -307,8 +303,7 @@ void MaterialsTab::filesDropped(const juce::StringArray& files, int x, int y) {
 
 void MaterialsTab::paint(juce::Graphics& g) {
     const MaterialColumns at{headArea_.withWidth(list_.getVisibleRowWidth())};
-    g.setFont(text::font(text::small));
-    g.setColour(shade(*this, Shade::muted));
+    ink(g, *this, Shade::muted, text::small);
     g.drawText("Material", at.name, juce::Justification::centredLeft, false);
     g.drawText("f Hz", at.frequency, juce::Justification::centredRight, false);
     g.drawText(juce::String::charToString(0x03c4) + " 1/s", at.decay, juce::Justification::centredRight,
@@ -344,8 +339,7 @@ void MaterialsTab::resized() {
               plots = hasPlots ? std::max(70, std::min({230, room * 52 / 100, room - 5 * rowPixels})) : 0;
     list_.setBounds(
         area.removeFromTop(std::clamp((room - plots) / rowPixels, 3, std::max(3, all)) * rowPixels));
-    for (juce::Component* plot : std::initializer_list<juce::Component*>{&spectrum_, &course_})
-        plot->setVisible(hasPlots);
+    physvib::setVisible({&spectrum_, &course_}, hasPlots);
     area.removeFromTop(between);
     auto row = area.removeFromTop(line);
     const auto place = [&row](juce::Label& name, juce::Component& control, int nameWidth, int width) {
@@ -379,52 +373,38 @@ void MaterialsTab::resized() {
     course_.setBounds(area);
 }
 
-namespace {
-
-constexpr double decibelsOfDecay = 60.0;
-
-} // namespace
-
-juce::String MaterialsTab::Rows::getNameForRow(int row) {
+juce::String MaterialsTab::getNameForRow(int row) {
     if (row < 0 || row >= getNumRows()) return {};
-    const auto& m = tab_.model_.world()
-                        .scene()
-                        .materials[static_cast<std::size_t>(tab_.order_[static_cast<std::size_t>(row)])];
+    const auto& m = nth(model_.world().scene().materials, nth(order_, row));
     return utf8(m.name) + (m.frequencyHz > 0.0 ? ", " + frequencyText(m.frequencyHz) + " hertz, decays by " +
                                                      decayText(m.decayPerSecond) + " per second"
                                                : juce::String{", silent"});
 }
 
-void MaterialsTab::Rows::listBoxItemClicked(int, const juce::MouseEvent& e) {
+void MaterialsTab::listBoxItemClicked(int, const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu())
-        return showMaterialMenu(tab_, tab_.model_, tab_.chosenIndex(),
-                                [this](int material) { tab_.choose(material); }, {});
+        return showMaterialMenu(*this, model_, chosenIndex(), [this](int material) { choose(material); }, {});
     const MaterialColumns at{e.eventComponent->getLocalBounds()};
-    if (at.dot.contains(e.getPosition())) return tab_.askName(false);
-    if (tab_.feel_.isEnabled() && at.sign.contains(e.getPosition())) tab_.feelAt(tab_.spot_);
+    if (at.dot.contains(e.getPosition())) return askName(false);
+    if (feel_.isEnabled() && at.sign.contains(e.getPosition())) feelAt(spot_);
 }
 
-void MaterialsTab::Rows::listBoxItemDoubleClicked(int, const juce::MouseEvent& e) {
+void MaterialsTab::listBoxItemDoubleClicked(int, const juce::MouseEvent& e) {
     const MaterialColumns at{e.eventComponent->getLocalBounds()};
-    at.name.contains(e.getPosition()) ? tab_.askName(false) : tab_.typeFrequency();
+    at.name.contains(e.getPosition()) ? askName(false) : typeFrequency();
 }
 
-void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height,
-                                          bool isSelected) {
+void MaterialsTab::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
     if (row >= getNumRows()) return;
-    const int index = tab_.order_[static_cast<std::size_t>(row)];
-    const auto& m = tab_.model_.world().scene().materials[static_cast<std::size_t>(index)];
-    if (isSelected) {
-        g.setColour(shade(tab_, Shade::accent).withAlpha(0.16f));
-        g.fillRect(0, 0, width, height);
-    }
+    const int index = nth(order_, row);
+    const auto& m = nth(model_.world().scene().materials, index);
+    if (isSelected) drawChosenRow(g, *this, width, height);
     const MaterialColumns at{{width, height}};
     const bool sounds = m.frequencyHz > 0.0;
-    g.setColour(palette::material(tab_.model_.world().scene().materials, index)
-                    .withMultipliedAlpha(sounds ? 1.0f : 0.5f));
+    g.setColour(
+        palette::material(model_.world().scene().materials, index).withMultipliedAlpha(sounds ? 1.0f : 0.5f));
     g.fillEllipse(at.dot.withWidth(14).toFloat().withSizeKeepingCentre(12.0f, 12.0f));
-    g.setFont(text::font(text::medium));
-    g.setColour(shade(tab_, sounds ? Shade::text : Shade::muted));
+    ink(g, *this, sounds ? Shade::text : Shade::muted, text::medium);
     g.drawText(utf8(m.name), at.name, juce::Justification::centredLeft, true);
     if (!sounds)
         return g.drawText("does not vibrate", at.frequency.getUnion(at.length),
@@ -435,7 +415,7 @@ void MaterialsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width,
                juce::Justification::centredRight, true);
     juce::Path sign;
     sign.addTriangle(-4.0f, -5.5f, -4.0f, 5.5f, 5.5f, 0.0f);
-    g.setColour(shade(tab_, isSelected ? Shade::accent : Shade::muted));
+    g.setColour(shade(*this, isSelected ? Shade::accent : Shade::muted));
     g.fillPath(sign,
                juce::AffineTransform::translation(at.sign.toFloat().getCentre().translated(6.0f, 0.0f)));
 }

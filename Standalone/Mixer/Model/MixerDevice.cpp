@@ -1,19 +1,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opens the device, checks devices that may disappear and return, and heals mixer states in which two strips
-// have one output, as files may have them.
+// have one output, as files may have them. Peak meters that fall, held peaks, and the decimated samples.
 #include "Mixer/Model/MixerDevice.h"
 #include "Live/Devices/NoDevice.h"
 #include "Live/Devices/PicoDevice.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerModel.h"
-#include <algorithm>
-#include <cmath>
-#include <utility>
+#include <juce_audio_basics/juce_audio_basics.h>
 
 namespace physvib {
+
 namespace {
 
 constexpr double maintainMs = 1000.0;
+
+bool isWithout(const Mix& mix, std::size_t strip) {
+    return strip < mix.strips.size() && mix.strips[strip].output < 0;
+}
+
+juce::String labelsOf(const MixerModel& model, const std::vector<std::size_t>& strips) {
+    juce::StringArray labels;
+    for (const std::size_t j : strips) labels.add(labelOf(model.mix(), j));
+    return labels.joinIntoString(", ");
+}
+
+void giveFreeOutputs(MixerModel& model, const std::vector<std::size_t>& strips) {
+    const auto inUse = model.device().choice().inUse();
+    const int outputs = model.device().outputs() > 0 ? model.device().outputs() : mostStripOutputs;
+    model.change("Free outputs", [&](Mix& mix) {
+        for (const std::size_t j : strips)
+            if (isWithout(mix, j)) mix.strips[j].output = freeOutput(mix.strips, inUse, outputs);
+    });
+    if (std::ranges::any_of(strips, [&](std::size_t j) { return isWithout(model.mix(), j); }))
+        model.report("The device has no other free output");
+}
+
+int earOf(std::size_t strip) { return strip < DeviceChoice::ears ? static_cast<int>(strip) : -1; }
+
+constexpr double holdMs = 1500.0;
 
 } // namespace
 
@@ -42,8 +65,7 @@ std::vector<int> MixerDevice::outputMap() const {
 }
 
 std::string MixerDevice::assign() {
-    rig_.output().hear(listening_.ofStudyOnly()); // remove monitor outputs first, because an actuator may be
-                                                  // assigned to one of them
+    rig_.output().hear(listening_.ofStudyOnly()); // first, as an actuator may get a monitor output
     auto error = rig_.output().assign(outputMap(), mix_.count());
     listening_.hearWanted();
     return error;
@@ -63,10 +85,8 @@ void MixerDevice::maintain() {
     rig_.maintain();
 }
 
-std::vector<RigTrouble> MixerDevice::troubles() const { return rig_.troubles(); }
-
 juce::String MixerDevice::trouble() const {
-    const auto all = troubles();
+    const auto all = rig_.troubles();
     return all.empty() ? juce::String{} : utf8(all.front().words);
 }
 
@@ -133,31 +153,6 @@ std::string MixerListening::mark(int output) {
     return listen(wanted, choice);
 }
 
-namespace {
-
-bool isWithout(const Mix& mix, std::size_t strip) {
-    return strip < mix.strips.size() && mix.strips[strip].output < 0;
-}
-
-juce::String labelsOf(const MixerModel& model, const std::vector<std::size_t>& strips) {
-    juce::StringArray labels;
-    for (const std::size_t j : strips) labels.add(utf8(model.mix().layout.enchanters[j].label));
-    return labels.joinIntoString(", ");
-}
-
-void giveFreeOutputs(MixerModel& model, const std::vector<std::size_t>& strips) {
-    const auto inUse = model.device().choice().inUse();
-    const int outputs = model.device().outputs() > 0 ? model.device().outputs() : mostStripOutputs;
-    model.change("Free outputs", [&](Mix& mix) {
-        for (const std::size_t j : strips)
-            if (isWithout(mix, j)) mix.strips[j].output = freeOutput(mix.strips, inUse, outputs);
-    });
-    if (std::ranges::any_of(strips, [&](std::size_t j) { return isWithout(model.mix(), j); }))
-        model.report("The device has no other free output");
-}
-
-} // namespace
-
 void showPlayedOutputs(const std::vector<int>& played, std::span<Strip> strips) {
     for (std::size_t j = 0; j < strips.size(); ++j) strips[j].output = j < played.size() ? played[j] : -1;
 }
@@ -194,10 +189,6 @@ void reportNoEar(MixerModel& model, const std::vector<std::size_t>& strips) {
           }},
          noEarLabel});
 }
-
-namespace {
-int earOf(std::size_t strip) { return strip < DeviceChoice::ears ? static_cast<int>(strip) : -1; }
-} // namespace
 
 std::string useHeadphones(MixerModel& model, DeviceChoice choice, std::optional<std::vector<int>> before) {
     if (!model.device().choice().isHeadphones)
@@ -262,6 +253,91 @@ void MixerExposure::update() {
     for (std::size_t j = 0; j < fullScaleG_.size(); ++j)
         squareGSeconds_ += (now.weighted[j] - sums_.weighted[j]) * fullScaleG_[j] * fullScaleG_[j];
     sums_ = now;
+}
+
+void MixerSignals::setRate(int sampleRateHz) {
+    scope_.setRate(sampleRateHz);
+    spectrum_.setRate(sampleRateHz);
+    sampleRateHz_ = std::max(1, sampleRateHz);
+}
+
+// Time advances by frames; differences from lost frames are corrected.
+void MixerSignals::follow(std::size_t run, double seconds, int slowness) {
+    constexpr double maxOffSeconds = 0.1;
+    if (run != run_.run()) run_.begin(run);
+    scenePerFrame_ = slowness > 0 && seconds >= 0.0 ? 1.0 / slowness / sampleRateHz_ : 0.0;
+    if (std::abs(seconds - run_.seconds()) > maxOffSeconds) run_.moveTo(seconds);
+}
+
+float MixerSignals::read(MixerMoment& moment, int enchanters, const Played& played) {
+    const double now = nowMs(), passed = std::min(1000.0, now - readAtMs_);
+    readAtMs_ = now;
+    const auto fall = static_cast<float>(std::pow(10.0, -meterFallDbPerSecond * passed / 20'000.0));
+    for (std::size_t j = 0; j < played.size(); ++j) {
+        float& peak = moment.meters.peaks[j];
+        peak = !played[j] || peak * fall < 1e-4f ? 0.0f : peak * fall;
+        if (!played[j]) moment.holds[j] = 0.0f;
+    }
+    tap_.read([&](const float* const* block, int frames) {
+        zeros_.resize(std::max(zeros_.size(), static_cast<std::size_t>(frames)));
+        std::array<const float*, limits::maxEnchanters> shown{};
+        for (std::size_t j = 0; j < static_cast<std::size_t>(enchanters); ++j)
+            shown[j] = played[j] ? block[j] : zeros_.data();
+        measure(shown.data(), frames, moment, enchanters);
+    });
+    float loudest = 0.0f;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(enchanters); ++j) {
+        const float peak = moment.meters.peaks[j];
+        if (peak >= moment.holds[j] || now - heldAtMs_[j] > holdMs)
+            moment.holds[j] = peak, heldAtMs_[j] = now;
+        loudest = std::max(loudest, peak);
+    }
+    return loudest;
+}
+
+// The tap lies before the master, which mutes.
+void MixerSignals::measure(const float* const* block, int frames, MixerMoment& moment, int enchanters) {
+    scope_.add(block, enchanters, frames);
+    spectrum_.add(block, enchanters, frames);
+    if (scenePerFrame_ > 0.0) run_.add(block, enchanters, frames, frames * scenePerFrame_);
+    for (int j = 0; j < enchanters; ++j) {
+        const auto range = juce::FloatVectorOperations::findMinAndMax(block[j], frames);
+        auto& peak = nth(moment.meters.peaks, j);
+        peak = std::max({peak, -range.getStart(), range.getEnd()});
+    }
+}
+
+void SpectrumTrace::setRate(int sampleRateHz) {
+    framesPerSample_ = std::max(1, sampleRateHz / keptRateHz);
+    keptRateHz_ = static_cast<double>(std::max(1, sampleRateHz)) / framesPerSample_;
+    lanes_.assign(limits::maxEnchanters, {std::vector<float>(window), 0.0f});
+    newest_ = summed_ = 0;
+}
+
+// Decimates by averaging consecutive frames.
+void SpectrumTrace::add(const float* const* channels, int count, int frames) {
+    for (int done = 0; done < frames;) {
+        const int part = std::min(frames - done, framesPerSample_ - summed_);
+        const bool isFull = summed_ + part == framesPerSample_;
+        for (std::size_t j = 0; j < static_cast<std::size_t>(count); ++j) {
+            Lane& lane = lanes_[j];
+            for (int k = done; k < done + part; ++k) lane.sum += channels[j][k];
+            if (isFull)
+                nth(lane.kept, newest_) =
+                    std::exchange(lane.sum, 0.0f) / static_cast<float>(framesPerSample_);
+        }
+        done += part;
+        summed_ = isFull ? 0 : summed_ + part;
+        if (isFull) newest_ = (newest_ + 1) % window;
+    }
+}
+
+std::vector<double> SpectrumTrace::recent(int channel) const {
+    const auto& kept = nth(lanes_, channel).kept;
+    if (std::ranges::all_of(kept, [](float x) { return std::abs(x) < 1e-4f; })) return {};
+    std::vector<double> samples(kept.begin() + newest_, kept.end());
+    samples.insert(samples.end(), kept.begin(), kept.begin() + newest_);
+    return samples;
 }
 
 } // namespace physvib

@@ -6,10 +6,7 @@
 #include "Live/Recordings/ClipFolder.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/ActuatorFile.h"
-#include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <utility>
 
 namespace physvib {
 namespace {
@@ -19,6 +16,19 @@ double stripDb(float gain) {
                ? leastStripDb
                : std::clamp(toDecibels(std::abs(static_cast<double>(gain))), leastStripDb, mostStripDb);
 }
+
+constexpr std::size_t maxWaiting = 1000; // reached only if the message thread hangs
+
+OscSettings settingsOf(const OscChoice& choice) {
+    OscSettings settings;
+    settings.address = choice.use == OscUse::anyComputer ? oscAnyComputer : oscThisComputer;
+    if (choice.use != OscUse::off) settings.port = oscUsualPort;
+    settings.receiver = choice.receiver;
+    settings.turnRadians = choice.turnDegrees * std::numbers::pi / 180.0;
+    return settings;
+}
+
+constexpr double strikeAmplitude = 0.5; // of pulses and auditions, before strip, ceiling and master
 
 } // namespace
 
@@ -91,21 +101,6 @@ std::string MixerInputs::apply(const RenderControl& control) {
     return {};
 }
 
-namespace {
-
-constexpr std::size_t maxWaiting = 1000; // reached only if the message thread hangs
-
-OscSettings settingsOf(const OscChoice& choice) {
-    OscSettings settings;
-    settings.address = choice.use == OscUse::anyComputer ? oscAnyComputer : oscThisComputer;
-    if (choice.use != OscUse::off) settings.port = oscUsualPort;
-    settings.receiver = choice.receiver;
-    settings.turnRadians = choice.turnDegrees * std::numbers::pi / 180.0;
-    return settings;
-}
-
-} // namespace
-
 MixerOsc::MixerOsc(const OscChoice& choice, Session& session, AudioOutput& output,
                    std::function<std::string(const LineInput&)> act, std::function<void()> collectPlayed)
     : output_{output}
@@ -159,21 +154,22 @@ OscStatus MixerOsc::status() const {
     return status;
 }
 
-namespace {
-
-constexpr double strikeAmplitude = 0.5; // of pulses and auditions, before strip, ceiling and master
-
-} // namespace
-
 MixerStrikes::MixerStrikes(Session& session, const AudioOutput& output, const Mix& mix,
                            const MixerWorld& world, std::function<void()> onStrike,
                            std::function<void(const Result<std::string>&)> onClip)
     : session_{session}
+    , output_{output}
     , mix_{mix}
     , world_{world}
     , onStrike_{std::move(onStrike)}
-    , onClip_{onClip}
-    , clips_{session, output, std::move(onClip)} {}
+    , onClip_{std::move(onClip)}
+    , messages_{session} {}
+
+MixerStrikes::~MixerStrikes() {
+    constexpr int untilItHasBeenRead = -1;
+    reader_.removeAllJobs(false, untilItHasBeenRead); // after this no thread triggers an update
+    cancelPendingUpdate();
+}
 
 EnchanterPlace MixerStrikes::onField(double shareX, double shareY) const {
     return {shareX * world_.scene().fieldWidthMetres, shareY * world_.scene().fieldHeightMetres};
@@ -182,7 +178,7 @@ EnchanterPlace MixerStrikes::onField(double shareX, double shareY) const {
 // Place on the field at which only this actuator plays.
 EnchanterPlace MixerStrikes::placeOf(int enchanter) const {
     const auto& layout = mix_.layout.geometry;
-    const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
+    const auto& place = nth(layout.places, enchanter);
     const double wide = mix_.scene->fieldWidthMetres;
     return {place.xMetres / layout.extentWidthMetres * wide,
             place.yMetres / layout.extentHeightMetres * mix_.scene->fieldHeightMetres,
@@ -215,7 +211,7 @@ std::string MixerStrikes::audition(int material, double shareX, double shareY) {
 
 void MixerStrikes::testPulse(int enchanter) {
     CollisionEvent pulse;
-    const auto profile = findActuator(mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].actuator);
+    const auto profile = findActuator(nth(mix_.layout.enchanters, enchanter).actuator);
     // resonance of the thesis' actuators
     pulse.frequencyHz = profile && profile.value.resonanceHz ? *profile.value.resonanceHz : 205.0;
     pulse.decayPerSecond = 30.0;
@@ -238,51 +234,21 @@ void MixerStrikes::testSweep(int enchanter) {
     strike(std::move(tones), placeOf(enchanter));
 }
 
-void MixerStrikes::feelAt(const juce::StringArray& files, double shareX, double shareY) {
-    feel(files, onField(shareX, shareY), false);
-}
-
-void MixerStrikes::feelOn(const juce::StringArray& files, int enchanter) {
-    feel(files, placeOf(enchanter), true);
-}
-
 void MixerStrikes::feel(const juce::StringArray& files, const EnchanterPlace& at, bool isAlone) {
     if (files.size() != 1)
         return onClip_(Failure{"Expected one clip, found " + std::to_string(files.size()) + " files"});
-    clips_.feel(juce::File{files[0]}, at, isAlone);
+    PlainMessage clip{
+        "clip", {{"file", pathOf(juce::File{files[0]})}, {"place", std::vector{at.xMetres, at.yMetres}}}};
+    if (isAlone) clip.values.push_back({"law", std::string{nameOf(Spread::alone)}});
+    read(std::move(clip));
 }
 
 bool isClipDrag(const juce::StringArray& files) {
     return !files.isEmpty() && !files[0].endsWithIgnoreCase(".json");
 }
 
-MixerClips::MixerClips(Session& session, const AudioOutput& output,
-                       std::function<void(const Result<std::string>&)> onResult)
-    : output_{output}
-    , onResult_{std::move(onResult)}
-    , messages_{session} {}
-
-MixerClips::~MixerClips() {
-    constexpr int untilItHasBeenRead = -1;
-    reader_.removeAllJobs(false, untilItHasBeenRead); // after this no thread triggers an update
-    cancelPendingUpdate();
-}
-
-void MixerClips::feel(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone) {
-    PlainMessage clip{"clip",
-                      {{"file", file.getFullPathName().toStdString()},
-                       {"place", std::vector{atMetres.xMetres, atMetres.yMetres}}}};
-    if (isAlone) clip.values.push_back({"law", std::string{nameOf(Spread::alone)}});
-    read(std::move(clip));
-}
-
-void MixerClips::play(const juce::File& file) {
-    read({"clip", {{"file", file.getFullPathName().toStdString()}}},
-         "Playing " + file.getFileName().toStdString());
-}
-
 // What is said of the file itself where nothing else is.
-void MixerClips::read(PlainMessage clip, std::string said) {
+void MixerStrikes::read(PlainMessage clip, std::string said) {
     reader_.addJob([this, clip = std::move(clip), said = std::move(said)] {
         auto result = strike(clip);
         if (result && !said.empty()) result.value = said;
@@ -293,9 +259,8 @@ void MixerClips::read(PlainMessage clip, std::string said) {
 }
 
 // Runs on the reader's thread.
-Result<std::string> MixerClips::strike(const PlainMessage& clip) {
-    const auto unlessLent = [this](const std::string& path) { // a study may have borrowed the output while
-                                                              // earlier clips were read
+Result<std::string> MixerStrikes::strike(const PlainMessage& clip) {
+    const auto unlessLent = [this](const std::string& path) { // a study may have borrowed it meanwhile
         return output_.isLent() ? Result<LoadedClip>{Failure{"a study is running"}} : loadWholeClip(path);
     };
     const auto result = messages_.take(clip, nullptr, unlessLent);
@@ -305,13 +270,13 @@ Result<std::string> MixerClips::strike(const PlainMessage& clip) {
                                        : std::get<std::string>(result.value.values.front().value);
 }
 
-void MixerClips::handleAsyncUpdate() {
+void MixerStrikes::handleAsyncUpdate() {
     std::vector<Result<std::string>> results;
     {
         const std::lock_guard lock{mutex_};
         results.swap(results_);
     }
-    for (const auto& result : results) onResult_(result);
+    for (const auto& result : results) onClip_(result);
 }
 
 } // namespace physvib

@@ -6,14 +6,9 @@
 #include "Live/Documents/InputLine.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Mixer/Model/MixerWorld.h"
-#include <functional>
 #include <juce_core/juce_core.h>
 #include <juce_events/juce_events.h>
-#include <memory>
 #include <mutex>
-#include <optional>
-#include <string>
-#include <vector>
 
 namespace physvib {
 
@@ -98,42 +93,15 @@ private:
 /// True if the dragged files may be dropped as clips; the window handles documents. Message thread.
 bool isClipDrag(const juce::StringArray& files);
 
-/// Plays clips: a background thread reads them and posts them like messages. Message thread.
-class MixerClips final : private juce::AsyncUpdater {
-public:
-    /// All references outlive it. `onResult` is called on the message thread for each clip: with a note or an
-    /// empty text if it plays, or with the reason if it was rejected.
-    MixerClips(Session& session, const AudioOutput& output,
-               std::function<void(const Result<std::string>&)> onResult);
-    ~MixerClips() override;
-
-    /// Plays the clip when it has been read: at that place of the field, or only on the actuator there. Clips
-    /// are read one after the other.
-    void feel(const juce::File& file, const EnchanterPlace& atMetres, bool isAlone);
-    /// The same, each channel on the actuator of its number.
-    void play(const juce::File& file);
-
-private:
-    void read(PlainMessage clip, std::string said = {});
-    Result<std::string> strike(const PlainMessage& clip);
-    void handleAsyncUpdate() override;
-
-    const AudioOutput& output_;
-    std::function<void(const Result<std::string>&)> onResult_;
-    MessageRouter messages_;
-    std::mutex mutex_; // guards the members below
-    std::vector<Result<std::string>> results_;
-    juce::ThreadPool reader_{1}; // destroyed first, because its thread uses the other members
-};
-
 /// Events that the mixer plays apart from the world: test pulses and sweeps of one actuator, auditions of
-/// materials, and clips. Message thread.
-class MixerStrikes {
+/// materials, and clips, which a background thread reads and posts like messages. Message thread.
+class MixerStrikes final : private juce::AsyncUpdater {
 public:
-    /// All references outlive it. `onStrike` is called for each event; `onClip` when a clip was read (as for
-    /// MixerClips) or failed.
+    /// All references outlive it. `onStrike` is called for each event; `onClip` for each clip: with a note or
+    /// an empty text if it plays, or with the reason if it was rejected.
     MixerStrikes(Session& session, const AudioOutput& output, const Mix& mix, const MixerWorld& world,
                  std::function<void()> onStrike, std::function<void(const Result<std::string>&)> onClip);
+    ~MixerStrikes() override;
 
     /// A pulse of one actuator, or a sweep over its range.
     void testPulse(int enchanter);
@@ -143,24 +111,36 @@ public:
     /// or an error.
     std::string audition(int material, double shareX, double shareY);
 
-    /// Plays a dropped clip at a place of the field, or on one actuator only, when it has been read.
-    void feelAt(const juce::StringArray& files, double shareX, double shareY);
-    void feelOn(const juce::StringArray& files, int enchanter);
+    /// Plays a dropped clip at a place of the field, or on one actuator only, when it has been read: one
+    /// after the other.
+    void feelAt(const juce::StringArray& files, double shareX, double shareY) {
+        feel(files, onField(shareX, shareY), false);
+    }
+    void feelOn(const juce::StringArray& files, int enchanter) { feel(files, placeOf(enchanter), true); }
     /// Plays a recording, each channel on the actuator of its number, when it has been read.
-    void playTake(const juce::File& file) { clips_.play(file); }
+    void playTake(const juce::File& file) {
+        read({"clip", {{"file", pathOf(file)}}}, "Playing " + file.getFileName().toStdString());
+    }
 
 private:
     bool strike(std::vector<CollisionEvent> strikes, const EnchanterPlace& at);
     EnchanterPlace onField(double shareX, double shareY) const;
     EnchanterPlace placeOf(int enchanter) const;
     void feel(const juce::StringArray& files, const EnchanterPlace& at, bool isAlone);
+    void read(PlainMessage clip, std::string said = {});
+    Result<std::string> strike(const PlainMessage& clip);
+    void handleAsyncUpdate() override;
 
     Session& session_;
+    const AudioOutput& output_;
     const Mix& mix_;
     const MixerWorld& world_;
     std::function<void()> onStrike_;
     std::function<void(const Result<std::string>&)> onClip_;
-    MixerClips clips_; // destroyed first, because its thread uses the other members
+    MessageRouter messages_;
+    std::mutex mutex_; // guards the members below
+    std::vector<Result<std::string>> results_;
+    juce::ThreadPool reader_{1}; // destroyed first, because its thread uses the other members
 };
 
 } // namespace physvib

@@ -2,12 +2,8 @@
 // The queue of messages, words for impacts, and trials of materials in a world of their own.
 #include "Mixer/Model/MixerMessages.h"
 #include "Core/NameNumbers.h"
-#include "Live/Documents/Mix.h"
-#include "Live/Documents/SessionFile.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/Drawing/FeltTrial.h"
-#include <algorithm>
-#include <cmath>
 #include <ranges>
 
 namespace physvib {
@@ -15,6 +11,23 @@ namespace {
 
 bool isOf(const MixerMessage& message, const juce::String& label) {
     return label.isNotEmpty() && message.label == label;
+}
+
+constexpr const char *feltLabel = "felt", *makeFelt = "Make it felt";
+
+void showHint(MixerModel& model, const std::string& name, const std::string& why,
+              std::function<void()> mend) {
+    if (why.empty()) return model.messages().withdraw(feltLabel);
+    MixerMessage message{utf8(name) + " is not felt at usual impacts: " + utf8(why), true, {}, feltLabel};
+    if (mend) message.act = {makeFelt, std::move(mend)};
+    model.messages().show(std::move(message));
+}
+
+/// The scene starts anew.
+void giveSound(MixerModel& model, int material) {
+    model.change(makeFelt, [&](Mix& mix) {
+        mix.scene = std::make_shared<const Scene>(withSound(model.world().drawing().drawn(), material));
+    });
 }
 
 } // namespace
@@ -63,7 +76,7 @@ juce::String materialName(const Scene& scene, const CollisionEvent& hit) {
     const int index = materialOf(scene, hit);
     return isClip(hit.sound) ? juce::String{"clip"}
            : index < 0       ? juce::String{"hit"}
-                             : utf8(scene.materials[static_cast<std::size_t>(index)].name);
+                             : utf8(nth(scene.materials, index).name);
 }
 
 StrongestActuator strongestOf(const MixerModel& model, const CollisionEvent& hit) {
@@ -86,7 +99,7 @@ juce::String whyOnlySeen(const MixerModel& model, const CollisionEvent& hit) {
     model.mix().panner().gainsAt(hit, gains);
     const auto nearest = std::ranges::max_element(gains) - gains.begin();
     const auto j = static_cast<std::size_t>(nearest);
-    const auto label = utf8(model.mix().layout.enchanters[j].label);
+    const auto label = labelOf(model.mix(), j);
     if (!model.device().isPlayed(j)) return label + " has no output";
     if (model.mix().strips[j].isMuted) return label + " is muted";
     return model.mix().isSilent(static_cast<int>(j)) ? label + " is not soloed" : juce::String{"too weak"};
@@ -104,31 +117,10 @@ juce::String placeText(const Scene& scene, const CollisionEvent& hit) {
                                              : "at the " + (row + " " + column).trim();
 }
 
-namespace {
-
-constexpr const char *feltLabel = "felt", *makeFelt = "Make it felt";
-
-void showHint(MixerModel& model, const std::string& name, const std::string& why,
-              std::function<void()> mend) {
-    if (why.empty()) return model.messages().withdraw(feltLabel);
-    MixerMessage message{utf8(name) + " is not felt at usual impacts: " + utf8(why), true, {}, feltLabel};
-    if (mend) message.act = {makeFelt, std::move(mend)};
-    model.messages().show(std::move(message));
-}
-
-/// The scene starts anew.
-void giveSound(MixerModel& model, int material) {
-    model.change(makeFelt, [&](Mix& mix) {
-        mix.scene = std::make_shared<const Scene>(withSound(model.world().drawing().drawn(), material));
-    });
-}
-
-} // namespace
-
 void hintOnMaterial(MixerModel& model, int material) {
     const Scene& scene = model.world().drawing().drawn();
     if (material < 0 || material >= static_cast<int>(scene.materials.size())) return;
-    const Material& asked = scene.materials[static_cast<std::size_t>(material)];
+    const Material& asked = nth(scene.materials, material);
     std::function<void()> mend;
     if (asked.frequencyHz <= 0.0)
         mend = [&model, material] {
@@ -177,10 +169,9 @@ void hintOnBody(MixerModel& model, const std::string& name) {
         mend = [&model, name] {
             const auto* there = model.world().drawing().find(name); // it may have been erased meanwhile
             if (there == nullptr) return;
-            const auto error =
-                model.world().edit(makeFelt, feltChanges(model.world().drawing().drawn(), *there));
-            if (!error.empty()) return model.report(utf8(error));
-            hintOnBody(model, name);
+            if (!model.reportFault(
+                    model.world().edit(makeFelt, feltChanges(model.world().drawing().drawn(), *there))))
+                hintOnBody(model, name);
         };
     showHint(model, name, whyNotFelt(scene, *body), std::move(mend));
 }

@@ -3,8 +3,10 @@
 // and hints why nothing would be felt.
 #pragma once
 #include "Core/CollisionEvent.h"
+#include "Io/Text/NumberText.h"
 #include "Io/Text/ReadableNumber.h"
 #include "Live/Documents/Mix.h"
+#include <concepts>
 #include <deque>
 #include <functional>
 #include <juce_core/juce_core.h>
@@ -16,13 +18,32 @@ namespace physvib {
 class MixerModel;
 struct SavedSession;
 
+/// An element by a number of any type, or by an enumerator. Any thread.
+template <class All>
+decltype(auto) nth(All&& all, auto number) {
+    return std::forward<All>(all)[static_cast<std::size_t>(number)];
+}
+
 /// Any thread.
 inline juce::String utf8(const std::string& words) { return juce::String::fromUTF8(words.c_str()); }
+
+/// Any thread.
+inline std::string pathOf(const juce::File& file) { return file.getFullPathName().toStdString(); }
 
 /// Displayed names of built-in scenes: "shake-the-box" as "Shake the box". Any thread.
 inline juce::String titleOf(const std::string& name) {
     const auto words = utf8(name).replaceCharacter('-', ' ');
     return words.substring(0, 1).toUpperCase() + words.substring(1);
+}
+
+/// The name of an actuator. Any thread.
+inline juce::String labelOf(const Mix& mix, std::integral auto actuator) {
+    return utf8(nth(mix.layout.enchanters, actuator).label);
+}
+
+/// "1 hit", "2 hits". Any thread.
+inline juce::String countOf(std::integral auto number, const char* what) {
+    return utf8(counted(static_cast<std::size_t>(number), what));
 }
 
 /// Fixed notation with a real minus sign. Any thread.
@@ -89,8 +110,7 @@ juce::String materialName(const Scene& scene, const CollisionEvent& hit);
 
 struct StrongestActuator {
     int enchanter = 0;
-    double levelG = 0.0; ///< at that actuator, by its full scale and the master level; before strip and
-                         ///< limiter
+    double levelG = 0.0; ///< there, by full scale and master level; before strip and limiter
 };
 StrongestActuator strongestOf(const MixerModel& model, const CollisionEvent& hit);
 /// Of a hit that nobody feels: what the actuator that would play most of it lacks.

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mixer's state, the session that plays it, and its output device.
 #include "Mixer/Model/MixerModel.h"
-#include "Live/Documents/Mix.h"
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneFile.h"
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace physvib {
@@ -92,8 +89,7 @@ void SentMix::send(Session& session, const Mix& mix) {
 void SentMix::follow(Session& session, const Mix& mix) {
     std::vector<bool> follows(mix.strips.size());
     for (std::size_t j = 0; j < follows.size(); ++j) follows[j] = hasLane(mix, j);
-    for (std::size_t j = 0; j < follows_.size(); ++j) // forget the gain, since the value at the end of its
-                                                      // lane is unknown here
+    for (std::size_t j = 0; j < follows_.size(); ++j) // the gain at the end of its lane is unknown here
         if (follows_[j] && (j >= follows.size() || !follows[j]))
             strips_[j].gain = std::numeric_limits<float>::quiet_NaN();
     const bool any = std::ranges::find(follows, true) != follows.end(),
@@ -205,7 +201,8 @@ bool MixerModel::apply(const Mix& next) {
     bool isRefused = false;
     ++edits_;
     maxEnchanters_ = std::max(maxEnchanters_, mix_.count());
-    if (mix_.scene != before.scene || mix_.seed != before.seed) beginWorld(mix_.scene == before.scene);
+    if (mix_.scene != before.scene || mix_.seed != before.seed)
+        reportFault(world_.begin(mix_.scene == before.scene));
     signals_.tap().hear(mix_.count());
     exposure_.use(mix_.layout);
     lastSent_->follow(session(), mix_);
@@ -213,8 +210,7 @@ bool MixerModel::apply(const Mix& next) {
     if (!mix_.strips.empty() &&
         !std::ranges::equal(before.strips, mix_.strips, {}, &Strip::output, &Strip::output))
         if (const auto error = device_.assign(); !error.empty()) {
-            showPlayedOutputs(output().channelMap(), mix_.strips); // a refused output is neither shown nor
-                                                                   // saved
+            showPlayedOutputs(output().channelMap(), mix_.strips); // refused: neither shown nor saved
             report(utf8(error));
             isRefused = isSame(mix_, before);
         }
@@ -255,18 +251,16 @@ bool MixerModel::attach(double shareX, double shareY) {
 
 void MixerModel::detach(int enchanter) {
     if (mix_.count() < 2) return;
-    change("Detach " + juce::String::fromUTF8(
-                           mix_.layout.enchanters[static_cast<std::size_t>(enchanter)].label.c_str()),
-           [&](Mix& mix) {
-               auto& layout = mix.layout;
-               auto& places = layout.geometry.places;
-               std::copy(places.begin() + enchanter + 1, places.begin() + layout.geometry.count,
-                         places.begin() + enchanter);
-               --layout.geometry.count;
-               layout.name = "own";
-               layout.enchanters.erase(layout.enchanters.begin() + enchanter);
-               mix.strips.erase(mix.strips.begin() + enchanter);
-           });
+    change("Detach " + labelOf(mix_, enchanter), [&](Mix& mix) {
+        auto& layout = mix.layout;
+        auto& places = layout.geometry.places;
+        std::copy(places.begin() + enchanter + 1, places.begin() + layout.geometry.count,
+                  places.begin() + enchanter);
+        --layout.geometry.count;
+        layout.name = "own";
+        layout.enchanters.erase(layout.enchanters.begin() + enchanter);
+        mix.strips.erase(mix.strips.begin() + enchanter);
+    });
 }
 
 const SavedSession& MixerModel::saved() {
@@ -313,7 +307,7 @@ void MixerModel::watchOutput() {
     device_.maintain();
     session().world().setSlowness(slowness);
     // each source of errors has a message of its own
-    const auto before = std::exchange(troubles_, device_.troubles());
+    const auto before = std::exchange(troubles_, rig_.troubles());
     for (const RigTrouble& old : before)
         if (std::ranges::find(troubles_, old.source, &RigTrouble::source) == troubles_.end())
             messages_.withdraw(utf8(old.source));
@@ -324,12 +318,8 @@ void MixerModel::watchOutput() {
 
 void MixerModel::restart(std::uint32_t seed) {
     if (seed != mix_.seed) return change("Seed", [seed](Mix& mix) { mix.seed = seed; });
-    beginWorld(true);
+    reportFault(world_.begin(true));
     edited();
-}
-
-void MixerModel::beginWorld(bool isSameScene) {
-    if (const auto fault = world_.begin(isSameScene); !fault.empty()) report(utf8(fault));
 }
 
 void MixerModel::setSlowness(int slowness) {

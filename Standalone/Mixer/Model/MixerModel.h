@@ -2,20 +2,10 @@
 // Model of the mixer's window: a live session on a device, the mixer state, and the undo history. Its parts
 // are the other files of this folder; views look at it and change it, it knows no view.
 #pragma once
-#include "Live/Documents/Mix.h"
 #include "Live/Documents/SessionFile.h"
-#include "Live/Rig/Rig.h"
-#include "Live/Session/Session.h"
 #include "Mixer/Model/MixerDevice.h"
 #include "Mixer/Model/MixerInputs.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerRecording.h"
-#include "Mixer/Model/MixerSignals.h"
-#include "Mixer/Model/MixerWorld.h"
-#include <juce_data_structures/juce_data_structures.h>
-#include <memory>
-#include <string>
-#include <vector>
 
 namespace physvib {
 
@@ -24,8 +14,7 @@ class SentMix;
 /// Message thread. Listeners are notified when the mixer state, the device or the error message changes.
 class MixerModel final : public juce::ChangeBroadcaster {
 public:
-    static constexpr int channels = limits::maxEnchanters; ///< of the session: the maximum number of
-                                                           ///< actuators
+    static constexpr int channels = limits::maxEnchanters; ///< of the session: the most actuators
 
     /// Plays `mix` on `device`, one of `types`; trouble() reports a failure. Sample rate and block size stay
     /// until another device is opened.
@@ -48,8 +37,7 @@ public:
     juce::UndoManager& undoManager() noexcept { return history_->undo; }
     /// For a model that begins with this one's mix and drawing.
     std::shared_ptr<MixerHistory> history() const { return history_; }
-    bool attach(double shareX, double shareY); ///< at shares of the field, at a low level; false if there is
-                                               ///< no channel left
+    bool attach(double shareX, double shareY); ///< at shares of the field, quietly; false: no channel is left
     void detach(int enchanter);                ///< the last actuator cannot be detached
 
     std::uint64_t edits() const noexcept { return edits_; } ///< inputs included; for unsaved changes
@@ -96,7 +84,6 @@ private:
     void edited(bool isShown = true);
 
     void watchOutput();
-    void beginWorld(bool isSameScene);
     bool apply(const Mix& next); // false: it was refused, and nothing has changed
     void showSilence();
     void collectPlayed();

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Closes a recording after its last block, and adds moves of faders to the lanes that played.
 #include "Mixer/Model/MixerRecording.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerModel.h"
-#include <utility>
 
 namespace physvib {
 
@@ -21,8 +19,7 @@ void MixerRecording::keep() {
 std::string MixerRecording::start(const juce::File& file) {
     if (recording_) return {};
     if (output_.sampleRateHz() == 0) return "nothing to record: no device runs";
-    auto recording = std::make_unique<Recording>(file.getFullPathName().toStdString(), mix_.count(),
-                                                 output_.sampleRateHz());
+    auto recording = std::make_unique<Recording>(pathOf(file), mix_.count(), output_.sampleRateHz());
     if (!recording->error().empty()) return recording->error();
     recording_ = std::move(recording);
     file_ = file;
@@ -48,10 +45,6 @@ double MixerRecording::seconds() const noexcept {
     return recording_
                ? static_cast<double>(recording_->recorder().frames()) / recording_->recorder().sampleRateHz()
                : 0.0;
-}
-
-void MixerRecording::add(const PlayedEvent& played) {
-    if (recording_) recording_->take(played);
 }
 
 // The audio thread has released the recorder after one more block; by then the events of the last frames have
@@ -114,6 +107,14 @@ void write(const GainLane& moves, double startDb, double& faderDb, GainLane& lan
     lane = thinned(sumOf(lane, moved));
 }
 
+constexpr const char* folderName = "PhysVib";
+
+/// Whether it can be written, or created in the nearest folder above it that exists.
+bool canBeWritten(juce::File folder) {
+    while (!folder.exists() && folder.getParentDirectory() != folder) folder = folder.getParentDirectory();
+    return folder.isDirectory() && folder.hasWriteAccess();
+}
+
 } // namespace
 
 double MixerLanes::sceneSeconds() const {
@@ -169,7 +170,7 @@ void MixerLanes::end() {
             continue; // it was removed meanwhile
         if (i < strips_) {
             write(moved[i].moves, moved[i].startDb, next.strips[i].gainDb, next.strips[i].lane);
-            names.add(utf8(next.layout.enchanters[i].label));
+            names.add(labelOf(next, i));
         } else {
             write(moved[i].moves, moved[i].startDb, next.groups[k].gainDb, next.groups[k].lane);
             names.add(utf8(next.groups[k].name));
@@ -180,18 +181,6 @@ void MixerLanes::end() {
     model_.announce("The moves of " + names.joinIntoString(", ") +
                     " are a lane now (Gain lanes); the faders are back where they were");
 }
-
-namespace {
-
-constexpr const char* folderName = "PhysVib";
-
-/// Whether it can be written, or created in the nearest folder above it that exists.
-bool canBeWritten(juce::File folder) {
-    while (!folder.exists() && folder.getParentDirectory() != folder) folder = folder.getParentDirectory();
-    return folder.isDirectory() && folder.hasWriteAccess();
-}
-
-} // namespace
 
 // Never the working directory, which may be anything when a program is started from a menu.
 juce::Array<juce::File> UserFolder::candidates() const {
@@ -211,8 +200,7 @@ juce::File UserFolder::place() const {
 Result<juce::File> UserFolder::make() const {
     for (const auto& folder : candidates())
         if (canBeWritten(folder) && folder.createDirectory().wasOk()) return folder;
-    return Failure{candidates().getFirst().getFullPathName().toStdString() +
-                   ": expected a folder that can be written"};
+    return Failure{pathOf(candidates().getFirst()) + ": expected a folder that can be written"};
 }
 
 Result<juce::File> UserFolder::fresh(const juce::String& name, const juce::StringArray& endings) const {

@@ -24,8 +24,7 @@ namespace physvib {
 
 class MixerModel;
 
-/// Records the actuator channels as WAV, and the events beside it; one recording at a time. Message thread
-/// only.
+/// Records the actuator channels as WAV, and the events beside it; one at a time. Message thread.
 class MixerRecording {
 public:
     /// All references outlive it. `onChange` is called when a recording starts, stops and is complete.
@@ -46,7 +45,9 @@ public:
     std::function<void(const juce::File&, const juce::String& error)> onEnd;
 
     /// Records an event that was played.
-    void add(const PlayedEvent& played);
+    void add(const PlayedEvent& played) {
+        if (recording_) recording_->take(played);
+    }
 
     /// To be called often, with the newest device status.
     void look(const AudioOutputStatus& device);
@@ -104,8 +105,7 @@ struct RecentContact {
 class RecentContacts {
 public:
     static constexpr std::size_t most = 100;
-    static constexpr std::size_t maxGrains = 20'000;     ///< limit of stored grains: 3 MB, some minutes of a
-                                                         ///< rough surface
+    static constexpr std::size_t maxGrains = 20'000;     ///< 3 MB, some minutes of a rough surface
     static constexpr std::int64_t pauseNs = 250'000'000; ///< a longer pause starts a new contact
 
     void add(const CollisionEvent& event) {

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Applies inputs and edits, converts the log of a scene run to a script, and matches the levels of two mixes.
 #include "Mixer/Model/MixerWorld.h"
-#include "Io/Text/ReadableNumber.h"
-#include "Live/Documents/Mix.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/SceneCast.h"
-#include <cmath>
 #include <map>
 
 namespace physvib {
@@ -148,6 +144,33 @@ namespace {
 
 const juce::String editName{"Record a script"};
 
+constexpr const char* compareStep = "Compare A and B";
+
+/// The contacts played last; before there are any, one at each of 15 places.
+std::vector<CollisionEvent> contactsOf(const MixerModel& model) {
+    std::vector<CollisionEvent> events;
+    for (const RecentContact& contact : model.recent().newestFirst()) events.push_back(contact.event);
+    if (!events.empty()) return events;
+    const Scene& scene = model.world().scene();
+    for (const double x : {0.1, 0.3, 0.5, 0.7, 0.9})
+        for (const double y : {0.2, 0.5, 0.8}) {
+            CollisionEvent event;
+            event.x = x * scene.fieldWidthMetres;
+            event.y = y * scene.fieldHeightMetres;
+            event.amplitude = 1.0;
+            events.push_back(event);
+        }
+    return events;
+}
+
+/// All but the world: what is compared.
+Mix withWorldOf(Mix mix, const Mix& now) {
+    mix.scene = now.scene;
+    mix.seed = now.seed;
+    mix.dragNewtonSecondsPerScreenMetre = now.dragNewtonSecondsPerScreenMetre;
+    return mix;
+}
+
 } // namespace
 
 void MixerScript::start() {
@@ -229,37 +252,6 @@ void MixerScript::setTrim(const ScriptTrim& trim, bool continuesEdit) {
     if (hands() == nullptr || trim == this->trim()) return;
     apply(trim, continuesEdit);
 }
-
-namespace {
-
-constexpr const char* compareStep = "Compare A and B";
-
-/// The contacts played last; before there are any, one at each of 15 places.
-std::vector<CollisionEvent> contactsOf(const MixerModel& model) {
-    std::vector<CollisionEvent> events;
-    for (const RecentContact& contact : model.recent().newestFirst()) events.push_back(contact.event);
-    if (!events.empty()) return events;
-    const Scene& scene = model.world().scene();
-    for (const double x : {0.1, 0.3, 0.5, 0.7, 0.9})
-        for (const double y : {0.2, 0.5, 0.8}) {
-            CollisionEvent event;
-            event.x = x * scene.fieldWidthMetres;
-            event.y = y * scene.fieldHeightMetres;
-            event.amplitude = 1.0;
-            events.push_back(event);
-        }
-    return events;
-}
-
-/// All but the world: what is compared.
-Mix withWorldOf(Mix mix, const Mix& now) {
-    mix.scene = now.scene;
-    mix.seed = now.seed;
-    mix.dragNewtonSecondsPerScreenMetre = now.dragNewtonSecondsPerScreenMetre;
-    return mix;
-}
-
-} // namespace
 
 double energyOf(const Mix& mix, std::span<const CollisionEvent> events) {
     const auto strips = feltStrips(mix);

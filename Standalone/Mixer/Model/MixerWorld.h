@@ -26,8 +26,7 @@ class PaceWatch {
 public:
     static constexpr std::int64_t everyNs = 500'000'000;
     static constexpr double leastShare = 0.9; ///< below this share the world is too slow,
-    static constexpr int minBodies = 300;     ///< if it has this many bodies; a smaller world is delayed by
-                                              ///< other load
+    static constexpr int minBodies = 300; ///< and has so many bodies; a smaller one is delayed by other load
 
     /// Share of real time at which the world ran since the last result, twice a second; nullopt in between.
     /// Arguments: session time, and the time by which the world is behind it (skipped after stalls, or not

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // List of actuators, and controls of the panner.
-#include "Mixer/Output/EnchantersTab.h"
+#include "Mixer/Output/OutputTab.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/ActuatorFile.h"
 
@@ -60,47 +60,39 @@ std::array<int, 3> columnsIn(int width, const std::array<int, 3>& widest) {
 
 void EnchantersTab::Module::paintButton(juce::Graphics& g, bool isOver, bool) {
     const auto area = getLocalBounds().toFloat().reduced(1.0f);
-    g.setColour(shade(*this, isOver ? Shade::raised : Shade::well));
-    g.fillRoundedRectangle(area, 6.0f);
+    fillRound(g, *this, isOver ? Shade::raised : Shade::well, area, 6.0f);
     const auto badge = area.withWidth(26.0f).withSizeKeepingCentre(26.0f, 26.0f).translated(8.0f, 0.0f);
     g.setColour(shade(*this, Shade::accent));
     g.drawRoundedRectangle(badge, 6.0f, 2.0f);
     g.setFont(text::font(text::large));
     g.drawText("+", badge, juce::Justification::centred, false);
-    g.setColour(shade(*this, Shade::text));
-    g.setFont(text::font(text::medium));
+    ink(g, *this, Shade::text, text::medium);
     g.drawText("Drag onto the field to attach", area.withTrimmedLeft(46.0f), juce::Justification::centredLeft,
                true);
 }
 
-juce::String EnchantersTab::Rows::getNameForRow(int row) {
-    return row < getNumRows()
-               ? "Actuator " + utf8(tab_.model_.mix().layout.enchanters[static_cast<std::size_t>(row)].label)
-               : juce::String{};
+juce::String EnchantersTab::getNameForRow(int row) {
+    return row < getNumRows() ? "Actuator " + labelOf(model_.mix(), row) : juce::String{};
 }
 
-void EnchantersTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height,
-                                           bool isSelected) {
-    const auto& mix = tab_.model_.mix();
+void EnchantersTab::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
+    const auto& mix = model_.mix();
     if (row >= mix.count()) return;
     const auto i = static_cast<std::size_t>(row);
     const auto& e = mix.layout.enchanters[i];
     const auto& place = mix.layout.geometry.places[i];
-    if (isSelected) {
-        g.setColour(shade(tab_, Shade::accent).withAlpha(0.16f));
-        g.fillRect(0, 0, width, height);
-    }
+    if (isSelected) drawChosenRow(g, *this, width, height);
     auto area = juce::Rectangle<int>{width, height}.reduced(10, 0);
-    const auto colour = enchanterColour(tab_, row);
+    const auto colour = enchanterColour(*this, row);
     g.setColour(colour);
     g.fillEllipse(area.removeFromLeft(14).toFloat().withSizeKeepingCentre(12.0f, 12.0f));
     area.removeFromLeft(12);
     const auto cell = [&](const juce::String& words, int w, Shade which,
                           juce::Justification where = juce::Justification::centredLeft) {
-        g.setColour(shade(tab_, which));
+        g.setColour(shade(*this, which));
         g.drawText(words, area.removeFromLeft(w), where, true);
     };
-    const auto columns = columnsIn(area.getWidth(), tab_.widest_);
+    const auto columns = columnsIn(area.getWidth(), widest_);
     g.setFont(nameFont());
     cell(utf8(e.label), columns[0], Shade::text);
     g.setFont(text::font(text::medium));
@@ -121,9 +113,8 @@ EnchantersTab::EnchantersTab(MixerModel& model, WorldView& world)
     law_.setTitle("Panning law");
     for (int id = 1; const auto name : panningLawNames) law_.addItem(juce::String{name.data()}, id++);
     law_.onChange = [this] {
-        model_.change("Panning law", [this](Mix& mix) {
-            mix.law = panningLaws[static_cast<std::size_t>(law_.getSelectedItemIndex())].law;
-        });
+        model_.change("Panning law",
+                      [this](Mix& mix) { mix.law = nth(panningLaws, law_.getSelectedItemIndex()).law; });
     };
     exponent_.setTitle("Exponent");
     // the colour is read when the text box is created
@@ -141,15 +132,13 @@ EnchantersTab::EnchantersTab(MixerModel& model, WorldView& world)
     list_.setRowHeight(enchanterRowPixels);
     maps_.setTitle("Map of the chosen actuator");
     maps_.onClick = [this] { visibilityChanged(); };
-    detach_ = quietButton("Detach", "Detach the chosen actuator (Delete)");
-    detach_->onClick = [this] {
+    detach_ = quietButton("Detach", "Detach the chosen actuator (Delete)", [this] {
         if (chosen_ >= 0) model_.detach(chosen_);
-    };
+    });
     edit_ = quietButton(juce::String::fromUTF8("Name, profile\xe2\x80\xa6"),
-                        "Name, profile and full scale of the chosen actuator (Return)");
-    edit_->onClick = [this] {
-        if (chosen_ >= 0) editRow(chosen_);
-    };
+                        "Name, profile and full scale of the chosen actuator (Return)", [this] {
+                            if (chosen_ >= 0) editRow(chosen_);
+                        });
     hint_.setMinimumHorizontalScale(1.0f); // two lines rather than narrow letters
     addAll(*this, {&module_, &presetName_, &preset_, &lawName_, &law_, &exponentName_, &exponent_, &list_,
                    edit_.get(), detach_.get(), &maps_, &hint_});
@@ -159,7 +148,7 @@ EnchantersTab::EnchantersTab(MixerModel& model, WorldView& world)
     mixChanged();
 }
 
-void EnchantersTab::choose(int enchanter) {
+void EnchantersTab::selectedRowsChanged(int enchanter) {
     chosen_ = enchanter;
     world_.select(enchanter);
     visibilityChanged();
@@ -207,7 +196,7 @@ void EnchantersTab::applyRow(std::size_t i, const std::string& label, const std:
 void EnchantersTab::usePreset() {
     const int index = preset_.getSelectedItemIndex();
     if (index < 0) return;
-    const auto name = layoutPresetNames[static_cast<std::size_t>(index)];
+    const auto name = nth(layoutPresetNames, index);
     model_.change("Preset " + juce::String{name.data()}.toUpperCase(), [name](Mix& mix) {
         mix.layout = presetLayout(name, mix.layout.enchanters);
         mix.resizeStrips();
@@ -223,7 +212,7 @@ void EnchantersTab::mixChanged() {
     list_.updateContent();
     list_.repaint();
     if (chosen_ >= mix.count()) list_.deselectAllRows();
-    choose(list_.getSelectedRow());
+    selectedRowsChanged(list_.getSelectedRow());
 }
 
 void EnchantersTab::resized() {

@@ -4,10 +4,7 @@
 #include "Core/NameNumbers.h"
 #include "Io/Text/NameList.h"
 #include "Live/Recordings/HitExport.h"
-#include "Mixer/Model/MixerMessages.h"
-#include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Widgets/Cards.h"
-#include <algorithm>
 #include <filesystem>
 #include <iterator>
 #include <limits>
@@ -64,12 +61,48 @@ juce::String nameOf(const Scene& scene, const RecentContact& contact) {
     const auto name = materialName(scene, contact.event);
     const auto kind = contact.event.source.kind;
     if (kind == ContactKind::hit) return name;
-    return name + (kind == ContactKind::roll ? ", rolls, " : ", slides, ") + juce::String{contact.grains} +
-           (contact.grains == 1 ? " grain" : " grains");
+    return name + (kind == ContactKind::roll ? ", rolls, " : ", slides, ") + countOf(contact.grains, "grain");
 }
 
 juce::String placeNumbers(const CollisionEvent& hit) {
     return number(hit.x, 2) + ", " + number(hit.y, 2) + " m";
+}
+
+/// The first begins the file; distances stay.
+void startAtFirst(std::vector<CollisionEvent>& hits) {
+    std::ranges::stable_sort(hits, {}, &CollisionEvent::timeNs);
+    const std::int64_t first = hits.front().timeNs;
+    for (CollisionEvent& hit : hits) hit.timeNs -= first;
+}
+
+/// A new one: of another's of that name, nobody knows what it is.
+bool isMadeForUsAlone(const std::filesystem::path& folder) {
+    std::error_code fault;
+    if (!std::filesystem::create_directory(folder, fault)) return false;
+    std::filesystem::permissions(folder, std::filesystem::perms::owner_all, fault);
+    return !fault;
+}
+
+Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner, const std::string& path,
+                              ClipFormat format) {
+    StrikeClipSettings drawn;
+    drawn.channels = static_cast<std::size_t>(panner.channels());
+    drawn.gains = [&panner](const CollisionEvent& event, PhantomPanner::Gains& gains) {
+        gains = {};
+        panner.gainsAt(event, gains);
+    };
+    const auto clip = clipOfHits(hits, drawn);
+    if (!clip) return Failure{clip.error};
+    const auto parts = partsOf(clip.value, path, format);
+    WrittenHits written;
+    for (const ClipPart& part : parts) {
+        if (parts.size() > 1 && juce::File{part.path}.exists())
+            return Failure{part.path + ": is there already; a file for each actuator replaces none"};
+        written.paths.push_back(part.path);
+    }
+    if (const auto done = writeParts(parts, format); !done) return Failure{done.error};
+    written.losses = lossesOf(parts, format);
+    return written;
 }
 
 } // namespace
@@ -89,8 +122,8 @@ EventsTab::EventsTab(MixerModel& model)
                  ": channels and places. " + utf8(listed(parted)) + ": a file for each actuator");
     format_.setSelectedItemIndex(files_->ending(), juce::dontSendNotification);
     format_.onChange = [this] { files_->setEnding(format_.getSelectedItemIndex()); };
-    save_ = quietButton("Save as clip" + dots(), "Save the chosen contacts as a clip (Return)");
-    save_->onClick = [this] { saveAs(); };
+    save_ = quietButton("Save as clip" + dots(), "Save the chosen contacts as a clip (Return)",
+                        [this] { saveAs(); });
     addAll(*this, {&list_, &choice_, &format_, save_.get()});
     describeChoice();
 }
@@ -131,9 +164,8 @@ void EventsTab::listRecent() {
 
 void EventsTab::listChosen() {
     juce::SparseSet<int> rows;
-    for (int row = 0; row < rows_.getNumRows(); ++row)
-        if (const auto& contact = shown_[static_cast<std::size_t>(row)];
-            isChosen(contact) && contact.number != last_)
+    for (int row = 0; row < getNumRows(); ++row)
+        if (const auto& contact = nth(shown_, row); isChosen(contact) && contact.number != last_)
             rows.addRange({row, row + 1});
     list_.setSelectedRows(rows, juce::dontSendNotification);
     if (const int last = rowOf(last_); last >= 0) list_.selectRow(last, true, false); // from it Shift goes on
@@ -144,12 +176,12 @@ int EventsTab::rowOf(std::uint64_t number) const {
     return found == shown_.end() ? -1 : static_cast<int>(found - shown_.begin());
 }
 
-void EventsTab::rowChosen(int row) {
+void EventsTab::selectedRowsChanged(int row) {
     if (isListing_) return;
     chosen_.clear();
     const auto rows = list_.getSelectedRows();
-    for (int k = 0; k < rows.size(); ++k) chosen_.insert(shown_[static_cast<std::size_t>(rows[k])].number);
-    last_ = row >= 0 ? shown_[static_cast<std::size_t>(row)].number : 0;
+    for (int k = 0; k < rows.size(); ++k) chosen_.insert(nth(shown_, rows[k]).number);
+    last_ = row >= 0 ? nth(shown_, row).number : 0;
     describeChoice();
 }
 
@@ -163,38 +195,34 @@ void EventsTab::describeChoice() {
     for (const RecentContact& contact : shown_)
         if (isChosen(contact))
             first = std::min(first, contact.event.timeNs), last = std::max(last, contact.lastNs);
-    const auto count =
-        juce::String{static_cast<int>(chosen_.size())} + (chosen_.size() == 1 ? " contact" : " contacts");
-    choice_.setText(count + (last > first ? " within " + timeText(last - first) : juce::String{}) +
+    choice_.setText(countOf(chosen_.size(), "contact") +
+                        (last > first ? " within " + timeText(last - first) : juce::String{}) +
                         (isNarrow() ? "" : ", to be dragged out"),
                     juce::dontSendNotification);
 }
 
-juce::String EventsTab::Rows::getNameForRow(int row) {
+juce::String EventsTab::getNameForRow(int row) {
     if (row < 0 || row >= getNumRows()) return {};
-    const auto& contact = tab_.shown_[static_cast<std::size_t>(row)];
+    const auto& contact = nth(shown_, row);
     const auto& hit = contact.event;
-    const auto& scene = tab_.model_.world().scene();
+    const auto& scene = model_.world().scene();
     return nameOf(scene, contact) + " at " + timeText(hit.timeNs) + ", " +
-           number(strongestOf(tab_.model_, hit).levelG, 2) + " g " + placeText(scene, hit);
+           number(strongestOf(model_, hit).levelG, 2) + " g " + placeText(scene, hit);
 }
 
-void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
+void EventsTab::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
     if (row >= getNumRows()) return;
-    const auto& contact = tab_.shown_[static_cast<std::size_t>(row)];
+    const auto& contact = nth(shown_, row);
     const auto& hit = contact.event;
-    const auto& model = tab_.model_;
-    if (isSelected) {
-        g.setColour(shade(tab_, Shade::accent).withAlpha(0.16f));
-        g.fillRect(0, 0, width, height);
-    }
+    const auto& model = model_;
+    if (isSelected) drawChosenRow(g, *this, width, height);
     const Columns at{{width, height}};
     const auto most = strongestOf(model, hit);
     const int material = materialOf(model.world().scene(), hit);
     g.setColour(material < 0 ? palette::other : palette::material(model.world().scene().materials, material));
     g.fillEllipse(at.dot.toFloat().withSizeKeepingCentre(10.0f, 10.0f).translated(-4.0f, 0.0f));
     const auto cell = [&](const juce::String& words, juce::Rectangle<int> area, Shade which, bool isNumber) {
-        g.setColour(shade(tab_, which));
+        g.setColour(shade(*this, which));
         g.drawText(words, area,
                    isNumber ? juce::Justification::centredRight : juce::Justification::centredLeft, true);
     };
@@ -207,15 +235,13 @@ void EventsTab::Rows::paintListBoxItem(int row, juce::Graphics& g, int width, in
     cell(number(most.levelG, 3), at.level, Shade::text, true);
     cell(placeNumbers(hit), at.place, Shade::muted, true);
     g.setFont(text::font(text::small, juce::Font::bold));
-    g.setColour(enchanterColour(tab_, most.enchanter));
-    g.drawText(utf8(model.mix().layout.enchanters[static_cast<std::size_t>(most.enchanter)].label),
-               at.enchanter, juce::Justification::centred, true);
+    g.setColour(enchanterColour(*this, most.enchanter));
+    g.drawText(labelOf(model.mix(), most.enchanter), at.enchanter, juce::Justification::centred, true);
 }
 
 void EventsTab::paint(juce::Graphics& g) {
     const Columns at{getLocalBounds().withHeight(eventHeadPixels).withWidth(list_.getVisibleRowWidth())};
-    g.setFont(text::font(text::small));
-    g.setColour(shade(*this, Shade::muted));
+    ink(g, *this, Shade::muted, text::small);
     const auto head = [&](const juce::String& words, juce::Rectangle<int> area, juce::Justification where) {
         g.drawText(words, area, where, true);
     };
@@ -289,11 +315,6 @@ std::vector<juce::File> EventsTab::write(const juce::File& file, bool saysHow) {
     return files;
 }
 
-void EventsTab::saveTo(const juce::File& file) {
-    write(file.getFileExtension().isEmpty() ? file.withFileExtension(hitEndings()[files_->ending()]) : file,
-          true);
-}
-
 // As escaped URLs, which the drop target receives.
 juce::StringArray EventsTab::filesToDrag() {
     juce::StringArray addresses;
@@ -307,47 +328,6 @@ juce::StringArray EventsTab::filesToDrag() {
 
 // Hits by the door of `physvib export`, or as samples.
 
-namespace {
-
-/// The first begins the file; distances stay.
-void startAtFirst(std::vector<CollisionEvent>& hits) {
-    std::ranges::stable_sort(hits, {}, &CollisionEvent::timeNs);
-    const std::int64_t first = hits.front().timeNs;
-    for (CollisionEvent& hit : hits) hit.timeNs -= first;
-}
-
-/// A new one: of another's of that name, nobody knows what it is.
-bool isMadeForUsAlone(const std::filesystem::path& folder) {
-    std::error_code fault;
-    if (!std::filesystem::create_directory(folder, fault)) return false;
-    std::filesystem::permissions(folder, std::filesystem::perms::owner_all, fault);
-    return !fault;
-}
-
-Result<WrittenHits> writeClip(const HitExport& hits, const PhantomPanner& panner, const std::string& path,
-                              ClipFormat format) {
-    StrikeClipSettings drawn;
-    drawn.channels = static_cast<std::size_t>(panner.channels());
-    drawn.gains = [&panner](const CollisionEvent& event, PhantomPanner::Gains& gains) {
-        gains = {};
-        panner.gainsAt(event, gains);
-    };
-    const auto clip = clipOfHits(hits, drawn);
-    if (!clip) return Failure{clip.error};
-    const auto parts = partsOf(clip.value, path, format);
-    WrittenHits written;
-    for (const ClipPart& part : parts) {
-        if (parts.size() > 1 && juce::File{part.path}.exists())
-            return Failure{part.path + ": is there already; a file for each actuator replaces none"};
-        written.paths.push_back(part.path);
-    }
-    if (const auto done = writeParts(parts, format); !done) return Failure{done.error};
-    written.losses = lossesOf(parts, format);
-    return written;
-}
-
-} // namespace
-
 Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
                               const juce::File& path) {
     if (hits.empty()) return Failure{"Chosen contacts: expected one whose grains are still kept"};
@@ -355,7 +335,7 @@ Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, 
         return Failure{"Chosen contacts: expected hits, found a clip, which is a file already"};
     startAtFirst(hits);
     const auto panner = mix.panner();
-    const auto name = path.getFullPathName().toStdString();
+    const auto name = pathOf(path);
     const HitExport made{"Chosen contacts", path.getFileNameWithoutExtension().toStdString(), hits,
                          mix.layout, mix.layout.name};
     if (const auto format = clipFormatOf(name)) return writeClip(made, panner, name, *format);
@@ -370,14 +350,13 @@ Result<juce::File> DraggedFiles::makeFolder() {
     const auto everyones = juce::File::getSpecialLocation(juce::File::tempDirectory);
     if (!folder_.isDirectory()) {
         const auto own = everyones.getChildFile("physvib-mixer-" + juce::Uuid{}.toString());
-        if (!isMadeForUsAlone(own.getFullPathName().toStdString()))
-            return Failure{everyones.getFullPathName().toStdString() +
-                           ": expected a folder to write what is dragged into"};
+        if (!isMadeForUsAlone(pathOf(own)))
+            return Failure{pathOf(everyones) + ": expected a folder to write what is dragged into"};
         folder_ = own;
     }
     const auto folder = folder_.getChildFile(juce::String{++drags_});
     if (const auto made = folder.createDirectory(); made.failed())
-        return Failure{folder.getFullPathName().toStdString() + ": " + made.getErrorMessage().toStdString()};
+        return Failure{pathOf(folder) + ": " + made.getErrorMessage().toStdString()};
     return folder;
 }
 

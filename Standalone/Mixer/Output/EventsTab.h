@@ -2,13 +2,8 @@
 // Tab that lists the played contacts, newest first; selected ones can be dragged to another program or saved.
 #pragma once
 #include "Formats/ClipFile.h"
-#include "Io/Result.h"
-#include "Live/Documents/Mix.h"
 #include "Mixer/Widgets/Parts.h"
-#include <juce_core/juce_core.h>
 #include <set>
-#include <string>
-#include <vector>
 
 namespace physvib {
 
@@ -52,7 +47,7 @@ private:
     int drags_ = 0, ending_ = 0;
 };
 
-class EventsTab final : public Tab {
+class EventsTab final : public Tab, private juce::ListBoxModel {
 public:
     static constexpr const char* dragged = "chosen contacts"; ///< description of a drag
 
@@ -66,28 +61,23 @@ public:
     juce::StringArray filesToDrag();
     /// Saves them to that file in the format of its extension, or without one in the format of drags. The
     /// mixer reports the result.
-    void saveTo(const juce::File& file);
+    void saveTo(const juce::File& file) {
+        write(file.getFileExtension().isEmpty() ? file.withFileExtension(hitEndings()[files_->ending()])
+                                                : file,
+              true);
+    }
 
 private:
-    class Rows final : public juce::ListBoxModel {
-    public:
-        explicit Rows(EventsTab& tab)
-            : tab_{tab} {}
-        int getNumRows() override { return static_cast<int>(tab_.shown_.size()); }
-        void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
-        juce::String getNameForRow(int row) override;
-        void selectedRowsChanged(int row) override { tab_.rowChosen(row); }
-        void listBoxItemClicked(int, const juce::MouseEvent& e) override {
-            if (e.mods.isPopupMenu()) tab_.showMenu();
-        }
-        void backgroundClicked(const juce::MouseEvent&) override { tab_.list_.deselectAllRows(); }
-        void returnKeyPressed(int) override { tab_.saveAs(); }
-        juce::var getDragSourceDescription(const juce::SparseSet<int>&) override { return dragged; }
-
-    private:
-        EventsTab& tab_;
-    };
-    void rowChosen(int row);
+    int getNumRows() override { return static_cast<int>(shown_.size()); }
+    void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
+    juce::String getNameForRow(int row) override;
+    void selectedRowsChanged(int row) override;
+    void listBoxItemClicked(int, const juce::MouseEvent& e) override {
+        if (e.mods.isPopupMenu()) showMenu();
+    }
+    void backgroundClicked(const juce::MouseEvent&) override { list_.deselectAllRows(); }
+    void returnKeyPressed(int) override { saveAs(); }
+    juce::var getDragSourceDescription(const juce::SparseSet<int>&) override { return dragged; }
     void listRecent();
     void listChosen();
     int rowOf(std::uint64_t number) const;
@@ -104,8 +94,7 @@ private:
     std::set<std::uint64_t> chosen_; // selected contacts, regardless of their rows
     std::uint64_t last_ = 0;         // the selected contact that was clicked last
     bool isListing_ = false;
-    Rows rows_{*this};
-    juce::ListBox list_{"Events", &rows_};
+    juce::ListBox list_{"Events", this};
     Caption choice_;
     juce::ComboBox format_;
     std::unique_ptr<juce::TextButton> save_;

@@ -2,7 +2,6 @@
 // Controls for the device, and its status text.
 #include "Mixer/Output/OutputTab.h"
 #include "Live/Devices/NoDevice.h"
-#include "Mixer/Model/MixerDevice.h"
 #include "Mixer/Widgets/Cards.h"
 
 namespace physvib {
@@ -11,8 +10,7 @@ namespace {
 constexpr std::array<int, 6> rates{8000, 44100, 48000, 88200, 96000, 192000};
 constexpr std::array<int, 7> blocks{32, 64, 128, 256, 512, 1024, 2048};
 constexpr std::array<int, 9> monitorLevels{0, -5, -10, -15, -20, -25, -30, -40, -50};
-constexpr int noneId = 1, levelId = 100; // item ids of the lists of outputs and levels: 1 + output or pair;
-                                         // 100 - level in dB
+constexpr int noneId = 1, levelId = 100; // items of lists: 1 + output or pair; 100 - level in dB
 constexpr int firstSinkId = 1000;        // item ids of the list of outputs: behind those of devices
 
 struct Cell {
@@ -35,9 +33,27 @@ void placeGrid(juce::Rectangle<int>& area, const std::vector<Cell>& cells) {
     }
 }
 
-} // namespace
+// in the order of OscUse
+constexpr std::array<const char*, 3> oscUses{"nobody", "this computer", "phones too"};
+struct PhoneHold {
+    const char* words;
+    double turnDegrees;
+};
+// direction of its top edge
+constexpr std::array<PhoneHold, 4> phoneHolds{
+    {{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
+constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // item ids of the list of receivers
 
-OutputTab::~OutputTab() = default;
+/// Where others reach this computer, in place of 0.0.0.0, which nobody can type in.
+juce::String reachedAt(const std::string& address) {
+    const auto words = utf8(address), port = words.fromLastOccurrenceOf(":", true, false);
+    if (!words.startsWith("0.0.0.0")) return words;
+    juce::StringArray all;
+    for (const auto& own : ownAddresses()) all.add(utf8(own) + port);
+    return all.isEmpty() ? words : all.joinIntoString(" or ");
+}
+
+} // namespace
 
 OutputTab::OutputTab(MixerModel& model)
     : model_{model} {
@@ -59,18 +75,13 @@ OutputTab::OutputTab(MixerModel& model)
     for (const int hz : rates) rate_.addItem(juce::String{hz} + " Hz", hz);
     block_.addItem("default", 1);
     for (const int frames : blocks) block_.addItem(juce::String{frames}, frames);
-    scan_ = quietButton("Rescan", "Rescan devices");
-    scan_->onClick = [this] { scan(); };
+    scan_ = quietButton("Rescan", "Rescan devices", [this] { scan(); });
     for (auto* box : {&device_, &rate_, &block_}) box->onChange = [this] { open(); };
     addAll(*this, {&deviceName_, &device_,      scan_.get(), &rateName_,         &rate_,         &blockName_,
                    &block_,      &oscName_,     &osc_,       &hitsName_,         &hits_,         &phoneName_,
                    &phone_,      &monitorName_, &monitor_,   &monitorLevelName_, &monitorLevel_, &marksName_,
                    &marks_,      &facts_});
     mixChanged();
-}
-
-void OutputTab::visibilityChanged() {
-    if (isVisible() && !isScanned_) scan();
 }
 
 void OutputTab::scan() {
@@ -142,15 +153,14 @@ void OutputTab::use(const SinkKind& kind, const std::string& where) {
 
 void OutputTab::open() {
     if (const auto row = device_.getSelectedId() - firstSinkId; row >= 0) {
-        const SinkRow chosen = rows_[static_cast<std::size_t>(row)];
+        const SinkRow chosen = nth(rows_, row);
         mixChanged(); // shows the unchanged choice: the user may yet cancel
         return choose(chosen);
     }
     const int index = device_.getSelectedId() - 1;
     DeviceChoice choice = model_.device().choice();
     if (index >= 0 && index < static_cast<int>(found_.size()))
-        choice.name =
-            found_[static_cast<std::size_t>(index)].type + ":" + found_[static_cast<std::size_t>(index)].name;
+        choice.name = nth(found_, index).type + ":" + nth(found_, index).name;
     const bool wereEars = choice.isHeadphones;
     if (index >= 0) choice.isHeadphones = index == static_cast<int>(found_.size()); // the last item
     if (choice.isHeadphones) choice.name = worn_;
@@ -165,7 +175,7 @@ juce::String OutputTab::ownersOf(int output, bool isMuteTold) const {
     juce::String owners;
     for (std::size_t j = 0; j < mix.strips.size(); ++j)
         if (mix.strips[j].output == output)
-            owners << " " << utf8(mix.layout.enchanters[j].label)
+            owners << " " << labelOf(mix, j)
                    << (isMuteTold && mix.isSilent(static_cast<int>(j)) ? " (muted)" : "");
     return owners;
 }
@@ -204,16 +214,13 @@ void OutputTab::chooseMonitor() {
     const int left = monitor_.getSelectedId() - noneId - 1;
     const double db = monitorLevel_.getSelectedId() > 0 ? levelId - monitorLevel_.getSelectedId()
                                                         : model_.device().choice().monitorDb;
-    const auto error =
-        left < 0 ? model_.device().listening().monitor({}, db) : model_.monitorInstead({left, left + 1}, db);
-    if (!error.empty()) model_.report(utf8(error));
+    model_.reportFault(left < 0 ? model_.device().listening().monitor({}, db)
+                                : model_.monitorInstead({left, left + 1}, db));
     listHeard();
 }
 
 void OutputTab::chooseMarks() {
-    if (const auto error = model_.device().listening().mark(marks_.getSelectedId() - noneId - 1);
-        !error.empty())
-        model_.report(utf8(error));
+    model_.reportFault(model_.device().listening().mark(marks_.getSelectedId() - noneId - 1));
     listHeard();
 }
 
@@ -323,14 +330,11 @@ void OutputTab::refresh(const MixerMoment& moment) {
          isNone || connected < all ? Shade::now : Shade::text},
         {"Load", number(100.0 * moment.device.load, 1) + " % of a block, " +
                      number(100.0 * moment.device.worstLoad, 1) + " % at most"},
-        {"Late",
-         juce::String{static_cast<juce::int64>(r.late)} + (r.late == 1 ? " hit, " : " hits, ") +
-             number(slipped, 0) + " ms of stalls",
+        {"Late", countOf(r.late, "hit") + ", " + number(slipped, 0) + " ms of stalls",
          r.late > 0 ? Shade::now : Shade::text},
         {"Xruns", moment.device.deviceXruns < 0 ? juce::String{"not counted by the device"}
                                                 : juce::String{moment.device.deviceXruns}},
-        {"Opened again",
-         juce::String{moment.device.losses} + (moment.device.losses == 1 ? " time" : " times")}};
+        {"Opened again", countOf(moment.device.losses, "time")}};
     std::ranges::move(sinkFacts(), std::back_inserter(facts));
     facts.insert(facts.begin() +
                      (model_.inputs().status() ? 1 : static_cast<std::ptrdiff_t>(facts.size())), // in sight
@@ -362,39 +366,14 @@ void OutputTab::resized() {
     facts_.setBounds(area);
 }
 
-namespace {
-
-// in the order of OscUse
-constexpr std::array<const char*, 3> oscUses{"nobody", "this computer", "phones too"};
-struct PhoneHold {
-    const char* words;
-    double turnDegrees;
-};
-// direction of its top edge
-constexpr std::array<PhoneHold, 4> phoneHolds{
-    {{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
-constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // item ids of the list of receivers
-
-/// Where others reach this computer, in place of 0.0.0.0, which nobody can type in.
-juce::String reachedAt(const std::string& address) {
-    const auto words = utf8(address), port = words.fromLastOccurrenceOf(":", true, false);
-    if (!words.startsWith("0.0.0.0")) return words;
-    juce::StringArray all;
-    for (const auto& own : ownAddresses()) all.add(utf8(own) + port);
-    return all.isEmpty() ? words : all.joinIntoString(" or ");
-}
-
-} // namespace
-
 void OutputTab::prepareOsc() {
     describe(osc_, "OSC", "Who may strike, tilt and set gains by messages over the network: phones, Pd, Max");
-    for (int use = 0; use < static_cast<int>(oscUses.size()); ++use)
-        osc_.addItem(oscUses[static_cast<std::size_t>(use)], use + 1);
+    for (int use = 0; use < static_cast<int>(oscUses.size()); ++use) osc_.addItem(nth(oscUses, use), use + 1);
     describe(hits_, "Hits by OSC",
              "HOST:PORT of a program that hears of each hit as it is felt, and of the status once a second");
     describe(phone_, "Phone", "How a phone is held that tilts the world by OSC: where its top points");
     for (int k = 0; k < static_cast<int>(phoneHolds.size()); ++k)
-        phone_.addItem(phoneHolds[static_cast<std::size_t>(k)].words, k + 1);
+        phone_.addItem(nth(phoneHolds, k).words, k + 1);
     for (auto* box : {&osc_, &phone_}) box->onChange = [this] { listen(); };
     hits_.onChange = [this] { chooseReceiver(); };
 }
@@ -404,7 +383,7 @@ void OutputTab::listen() {
     const auto before = choice.use;
     choice.use = static_cast<OscUse>(osc_.getSelectedItemIndex());
     if (const int hold = phone_.getSelectedItemIndex(); hold >= 0)
-        choice.turnDegrees = phoneHolds[static_cast<std::size_t>(hold)].turnDegrees;
+        choice.turnDegrees = nth(phoneHolds, hold).turnDegrees;
     useOsc(choice, "Messages by OSC: ");
     const auto osc = model_.inputs().status();
     auto* const host = findParentComponentOfClass<CardHost>();

@@ -7,11 +7,7 @@
 #include "Live/Recordings/ReadRecording.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/EventsCsv.h"
-#include <algorithm>
-#include <cmath>
 #include <juce_audio_formats/juce_audio_formats.h>
-#include <optional>
-#include <utility>
 
 namespace physvib {
 namespace {
@@ -34,6 +30,9 @@ juce::String millisecondsText(double seconds) {
     return number(1e3 * seconds, 3).trimCharactersAtEnd("0").trimCharactersAtEnd(".");
 }
 
+constexpr int columns = 400;
+constexpr double leastSeconds = 0.02, step = 0.01;
+
 } // namespace
 
 juce::String TakesTab::Take::length() const {
@@ -47,19 +46,16 @@ TakesTab::TakesTab(MixerModel& model)
     list_.setTitle("List of takes");
     list_.setRowHeight(takeRowPixels);
     const auto button = [this](auto& made, const char* words, const char* name, void (TakesTab::*act)()) {
-        made = quietButton(words, name);
-        made->onClick = [this, act] { (this->*act)(); };
+        made = quietButton(words, name, [this, act] { (this->*act)(); });
         addAndMakeVisible(*made);
     };
     button(play_, "Play", "Play the take on the device", &TakesTab::play);
     button(trim_, "Trim", "Trim the take", &TakesTab::trim);
     button(export_, "Export", "Copy the take elsewhere", &TakesTab::askExport);
     button(erase_, "Delete", "Delete the take", &TakesTab::askErase);
-    show_ = quietButton("Show", "Show the folder of the takes");
-    show_->onClick = [this] { folder_->place().revealToUser(); };
+    show_ = quietButton("Show", "Show the folder of the takes", [this] { folder_->place().revealToUser(); });
     addAll(*this, {show_.get(), &list_});
-    addChildComponent(none_);
-    addChildComponent(trimmer_);
+    addHidden(*this, {&none_, &trimmer_});
     trimmer_.onChange = [this](juce::Range<double> part) {
         if (!take()) return;
         take()->part = part;
@@ -75,8 +71,7 @@ TakesTab::TakesTab(MixerModel& model)
 
 TakesTab::Take* TakesTab::take() {
     const int row = list_.getSelectedRow();
-    return row >= 0 && row < static_cast<int>(takes_.size()) ? &takes_[static_cast<std::size_t>(row)]
-                                                             : nullptr;
+    return row >= 0 && row < static_cast<int>(takes_.size()) ? &nth(takes_, row) : nullptr;
 }
 
 // A recording may have ended, or another program changed the folder.
@@ -205,26 +200,22 @@ void TakesTab::erase() {
 
 juce::String TakesTab::getNameForRow(int row) {
     if (row < 0 || row >= static_cast<int>(takes_.size())) return {};
-    const Take& t = takes_[static_cast<std::size_t>(row)];
+    const Take& t = nth(takes_, row);
     return t.file.getFileNameWithoutExtension() + ", " + t.length();
 }
 
 void TakesTab::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
     if (row >= static_cast<int>(takes_.size())) return;
     auto area = juce::Rectangle<int>{width, height};
-    if (isSelected) {
-        g.setColour(shade(*this, Shade::accent).withAlpha(0.22f));
-        g.fillRect(area);
-    }
+    if (isSelected) drawChosenRow(g, *this, width, height, 0.22f);
     area.reduce(10, 0);
-    const Take& t = takes_[static_cast<std::size_t>(row)];
-    g.setFont(text::font(text::small));
-    g.setColour(shade(*this, Shade::muted));
+    const Take& t = nth(takes_, row);
+    ink(g, *this, Shade::muted, text::small);
     const auto cell = [&](const juce::String& words, int wide) {
         g.drawText(words, area.removeFromRight(wide), juce::Justification::centredRight, true);
     };
     cell(t.at.formatted("%Y-%m-%d %H:%M"), 120);
-    if (width > 400) cell(juce::String{t.channels} + (t.channels == 1 ? " channel" : " channels"), 90);
+    if (width > 400) cell(countOf(t.channels, "channel"), 90);
     g.setColour(shade(*this, Shade::text));
     cell(t.length(), t.isTrimmed() ? 110 : 70);
     g.setFont(text::font(text::medium));
@@ -243,13 +234,6 @@ void TakesTab::resized() {
     list_.setBounds(area);
     none_.setBounds(area.withHeight(rowHeight).reduced(10, 0));
 }
-
-namespace {
-
-constexpr int columns = 400;
-constexpr double leastSeconds = 0.02, step = 0.01;
-
-} // namespace
 
 TakeTrim::TakeTrim() {
     describe(*this, "Start and end of the take",
@@ -299,10 +283,6 @@ void TakeTrim::trimSilence() {
         changeAtOnce(soundingPart(levels_, seconds_));
 }
 
-float TakeTrim::pixelOf(double seconds) const {
-    return static_cast<float>(seconds / std::max(seconds_, 1e-9) * getWidth());
-}
-
 void TakeTrim::change(juce::Range<double> part) {
     part_ = part;
     repaint();
@@ -312,14 +292,6 @@ void TakeTrim::change(juce::Range<double> part) {
 void TakeTrim::changeAtOnce(juce::Range<double> part) {
     change(part);
     end();
-}
-
-void TakeTrim::end() {
-    if (onEnd) onEnd();
-}
-
-void TakeTrim::mouseUp(const juce::MouseEvent& e) {
-    if (e.mouseWasDraggedSinceMouseDown()) end();
 }
 
 void TakeTrim::moveTo(double seconds) {
@@ -333,10 +305,6 @@ void TakeTrim::moveTo(double seconds) {
     change(part);
 }
 
-void TakeTrim::mouseDown(const juce::MouseEvent& e) {
-    movesEnd_ = e.position.x > 0.5f * (pixelOf(part_.getStart()) + pixelOf(part_.getEnd()));
-}
-
 bool TakeTrim::keyPressed(const juce::KeyPress& key) {
     const bool isLeft = key.isKeyCode(juce::KeyPress::leftKey);
     if (!isLeft && !key.isKeyCode(juce::KeyPress::rightKey)) return false;
@@ -347,8 +315,7 @@ bool TakeTrim::keyPressed(const juce::KeyPress& key) {
 }
 
 void TakeTrim::paint(juce::Graphics& g) {
-    g.setColour(shade(*this, Shade::well));
-    g.fillRoundedRectangle(getLocalBounds().toFloat(), 3.0f);
+    fillRound(g, *this, Shade::well, getLocalBounds().toFloat(), 3.0f);
     const float middle = 0.5f * static_cast<float>(getHeight()), from = pixelOf(part_.getStart()),
                 to = pixelOf(part_.getEnd());
     for (std::size_t k = 0; k < levels_.size(); ++k) {
@@ -384,7 +351,7 @@ public:
     std::string take(const float* const* channels, int frames) override {
         const auto columns = static_cast<std::int64_t>(levels.size());
         for (int k = 0; k < frames && at_ < shape_.frames; ++k, ++at_) {
-            float& level = levels[static_cast<std::size_t>(at_ * columns / shape_.frames)];
+            float& level = nth(levels, at_ * columns / shape_.frames);
             for (int c = 0; c < shape_.channels; ++c) level = std::max(level, std::abs(channels[c][k]));
         }
         return keepGoing_() ? std::string{} : "cancelled";
@@ -414,8 +381,7 @@ public:
         fade_ = std::max<std::int64_t>(1, frameOf(fadeSeconds));
         rateHz_ = static_cast<int>(shape.sampleRateHz);
         block_.resize(static_cast<std::size_t>(shape.channels));
-        sink_.emplace(to_.getFullPathName().toStdString(), static_cast<int>(shape.channels), rateHz_,
-                      comment_);
+        sink_.emplace(pathOf(to_), static_cast<int>(shape.channels), rateHz_, comment_);
         return sink_->error();
     }
     std::string take(const float* const* channels, int frames) override {
@@ -448,29 +414,8 @@ private:
     std::int64_t from_ = 0, end_ = 0, frames_ = 0, fade_ = 1, at_ = 0;
 };
 
-} // namespace
-
-std::vector<float> takeLevels(const juce::File& take, int columns, const std::function<bool()>& keepGoing) {
-    Levels levels{columns, keepGoing};
-    const auto error = streamRecording(take.getFullPathName().toStdString(), levels);
-    return error.empty() ? std::move(levels.levels) : std::vector<float>{};
-}
-
-juce::Range<double> soundingPart(const std::vector<float>& levels, double seconds) {
-    const auto isFelt = [](float level) { return level >= leastFelt; };
-    const auto first = std::ranges::find_if(levels, isFelt);
-    if (first == levels.end()) return {0.0, seconds};
-    const auto last = std::find_if(levels.rbegin(), levels.rend(), isFelt).base();
-    const auto secondsOf = [&](auto at) {
-        return seconds * static_cast<double>(at - levels.begin()) / static_cast<double>(levels.size());
-    };
-    return {secondsOf(first), secondsOf(last)};
-}
-
-namespace {
-
 std::string writePart(const juce::File& take, Part& part) {
-    auto error = streamRecording(take.getFullPathName().toStdString(), part);
+    auto error = streamRecording(pathOf(take), part);
     return error.empty() ? part.finish() : error;
 }
 
@@ -488,7 +433,7 @@ bool hasNoRows(std::string_view list) {
 
 /// Of a take that felt nothing there are none.
 Result<EventList> eventsOfTake(const juce::File& list) {
-    const std::string path = list.getFullPathName().toStdString();
+    const std::string path = pathOf(list);
     auto read = loadEventsCsv(path);
     if (read) return read;
     const auto text = readFile(path, limits::maxEventsFileBytes);
@@ -496,6 +441,23 @@ Result<EventList> eventsOfTake(const juce::File& list) {
 }
 
 } // namespace
+
+std::vector<float> takeLevels(const juce::File& take, int columns, const std::function<bool()>& keepGoing) {
+    Levels levels{columns, keepGoing};
+    const auto error = streamRecording(pathOf(take), levels);
+    return error.empty() ? std::move(levels.levels) : std::vector<float>{};
+}
+
+juce::Range<double> soundingPart(const std::vector<float>& levels, double seconds) {
+    const auto isFelt = [](float level) { return level >= leastFelt; };
+    const auto first = std::ranges::find_if(levels, isFelt);
+    if (first == levels.end()) return {0.0, seconds};
+    const auto last = std::find_if(levels.rbegin(), levels.rend(), isFelt).base();
+    const auto secondsOf = [&](auto at) {
+        return seconds * static_cast<double>(at - levels.begin()) / static_cast<double>(levels.size());
+    };
+    return {secondsOf(first), secondsOf(last)};
+}
 
 std::string writeTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to) {
     Part part{seconds, to, provenanceLine(provenanceOf(take))};
@@ -513,7 +475,7 @@ std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, 
         return e.timeNs < part.fromNs() || e.timeNs >= part.endNs();
     });
     for (auto& event : events) event.timeNs -= part.fromNs();
-    return writeFile(eventsOf(to).getFullPathName().toStdString(),
+    return writeFile(pathOf(eventsOf(to)),
                      eventsCsv(events, list.value.field, provenanceOf(take), list.value.names));
 }
 
@@ -545,17 +507,15 @@ juce::Range<double> keptPart(const juce::File& take, double seconds) {
 std::string keepPart(const juce::File& take, double seconds, juce::Range<double> part) {
     const auto file = fileOf(take);
     if (part == juce::Range{0.0, seconds})
-        return !file.existsAsFile() || file.deleteFile()
-                   ? std::string{}
-                   : file.getFullPathName().toStdString() + ": cannot be deleted";
+        return !file.existsAsFile() || file.deleteFile() ? std::string{}
+                                                         : pathOf(file) + ": cannot be deleted";
     auto* const fields = new juce::DynamicObject; // owned by the value below
     const juce::var kept{fields};
     fields->setProperty(fromField, part.getStart());
     fields->setProperty(toField, part.getEnd());
     fields->setProperty(ofField, seconds);
     file.getParentDirectory().createDirectory();
-    return writeFile(file.getFullPathName().toStdString(),
-                     juce::JSON::toString(kept, true, 15).toStdString() + "\n");
+    return writeFile(pathOf(file), juce::JSON::toString(kept, true, 15).toStdString() + "\n");
 }
 
 } // namespace physvib

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The recordings in the user's folder: a list with what can be done with each.
 #pragma once
-#include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Widgets/Parts.h"
 #include <atomic>
-#include <functional>
-#include <juce_core/juce_core.h>
-#include <mutex>
-#include <string>
-#include <utility>
-#include <vector>
 
 namespace physvib {
 
@@ -35,9 +28,13 @@ public:
     std::function<void()> onEnd; ///< after one or more changes: no more come
 
     void paint(juce::Graphics& g) override;
-    void mouseDown(const juce::MouseEvent& e) override;
+    void mouseDown(const juce::MouseEvent& e) override {
+        movesEnd_ = e.position.x > 0.5f * (pixelOf(part_.getStart()) + pixelOf(part_.getEnd()));
+    }
     void mouseDrag(const juce::MouseEvent& e) override { moveTo(seconds_ * e.position.x / getWidth()); }
-    void mouseUp(const juce::MouseEvent& e) override;
+    void mouseUp(const juce::MouseEvent& e) override {
+        if (e.mouseWasDraggedSinceMouseDown()) end();
+    }
     void mouseDoubleClick(const juce::MouseEvent&) override { showAll(); }
     bool keyPressed(const juce::KeyPress& key) override;
 
@@ -45,8 +42,12 @@ private:
     void moveTo(double seconds);
     void change(juce::Range<double> part);
     void changeAtOnce(juce::Range<double> part);
-    void end();
-    float pixelOf(double seconds) const;
+    void end() {
+        if (onEnd) onEnd();
+    }
+    float pixelOf(double seconds) const {
+        return static_cast<float>(seconds / std::max(seconds_, 1e-9) * getWidth());
+    }
     void handleAsyncUpdate() override;
 
     juce::File take_;
@@ -135,8 +136,7 @@ std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, 
 /// The folder below the takes for what belongs to them and is not listed.
 juce::File partsFolder(const juce::File& take);
 
-/// The part that was kept, s; all of the take if none was, or if it was of a take of another length. Message
-/// thread.
+/// The part that was kept, s; all of the take if none was, or one of another length. Message thread.
 juce::Range<double> keptPart(const juce::File& take, double seconds);
 
 /// All of the take needs no file. Empty, or one line. Message thread.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Formats counters of session and device; amber marks losses.
-#include "Mixer/Output/TelemetryTab.h"
 #include "Core/Units.h"
 #include "Live/Devices/NoDevice.h"
-#include <algorithm>
+#include "Mixer/Output/OutputTab.h"
 #include <numeric>
 
 namespace physvib {
@@ -13,7 +12,7 @@ constexpr std::size_t maxLoads = 300;   // ten seconds of updates
 constexpr double showFiguresMs = 500.0; // figures that change faster are illegible
 
 juce::String count(std::uint64_t n) { return juce::String{static_cast<juce::int64>(n)}; }
-juce::String hits(std::uint64_t n) { return count(n) + (n == 1 ? " hit" : " hits"); }
+juce::String hits(std::uint64_t n) { return countOf(n, "hit"); }
 juce::String percent(float share) { return number(100.0 * static_cast<double>(share), 1) + " %"; }
 Shade noneIsGood(std::uint64_t n) { return n > 0 ? Shade::now : Shade::text; }
 
@@ -36,9 +35,7 @@ Fact marginFact(const MixerMoment& moment, int rateHz) {
 
 Fact guardFact(const AudioOutputStatus& device) {
     const double reduction = toDecibels(std::max(static_cast<double>(device.guardGain), 1e-3));
-    const auto times = device.guarded > 0
-                           ? ", acted " + count(device.guarded) + (device.guarded == 1 ? " time" : " times")
-                           : juce::String{};
+    const auto times = device.guarded > 0 ? ", acted " + countOf(device.guarded, "time") : juce::String{};
     return {"Guard", number(reduction, 1) + " dB" + times, reduction < -0.05 ? Shade::limit : Shade::text};
 }
 
@@ -49,6 +46,18 @@ Fact exposureFact(double daily) {
             daily >= exposureLimitValue    ? Shade::limit
             : daily >= exposureActionValue ? Shade::now
                                            : Shade::text};
+}
+
+constexpr int lowestRow = 18, highestRow = 26, afterName = 14;
+
+/// That the words need at that width, broken between words.
+int linesOf(const juce::String& words, const juce::Font& font, int width) {
+    if (text::pixels(font, words) <= width) return 1;
+    juce::AttributedString all;
+    all.append(words, font);
+    juce::TextLayout layout;
+    layout.createLayout(all, static_cast<float>(std::max(1, width)));
+    return std::max(1, layout.getNumLines());
 }
 
 } // namespace
@@ -109,27 +118,11 @@ float TelemetryTab::medianLoad() const {
 void TelemetryTab::refresh(const MixerMoment& moment) {
     if (moment.device.isRunning) loads_.push_back(moment.device.load);
     if (loads_.size() > maxLoads) loads_.pop_front();
-    const double now = juce::Time::getMillisecondCounterHiRes();
+    const double now = nowMs();
     if (now - shownAtMs_ < showFiguresMs) return;
     shownAtMs_ = now;
     facts_.set(telemetryFacts(model_, moment, medianLoad()));
 }
-
-namespace {
-
-constexpr int lowestRow = 18, highestRow = 26, afterName = 14;
-
-/// That the words need at that width, broken between words.
-int linesOf(const juce::String& words, const juce::Font& font, int width) {
-    if (text::pixels(font, words) <= width) return 1;
-    juce::AttributedString all;
-    all.append(words, font);
-    juce::TextLayout layout;
-    layout.createLayout(all, static_cast<float>(std::max(1, width)));
-    return std::max(1, layout.getNumLines());
-}
-
-} // namespace
 
 FactList::FactList(const juce::String& title, int maxColumns)
     : maxColumns_{maxColumns} {
@@ -175,8 +168,8 @@ void FactList::paint(juce::Graphics& g) {
     g.setFont(font);
     int y = 0;
     for (int i = 0; i < static_cast<int>(facts_.size()); ++i) {
-        const auto& fact = facts_[static_cast<std::size_t>(i)];
-        const int lines = p.linesOf[static_cast<std::size_t>(i)];
+        const auto& fact = nth(facts_, i);
+        const int lines = nth(p.linesOf, i);
         if (i % p.rows == 0) y = 0;
         juce::Rectangle<int> row{i / p.rows * (width + gap), y, width, lines * line};
         y = row.getBottom();

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows for all strips and groups, with a time axis.
 #include "Mixer/Strips/LanesTab.h"
-#include <algorithm>
-#include <cmath>
+#include "Mixer/Strips/ScopeView.h"
 
 namespace physvib {
 namespace {
 
 constexpr int labelWidth = 92, minRow = 34, betweenRows = 6, footHigh = 18;
+
+constexpr float pointSize = 8.0f, pointInset = 5.0f; // so that points at the edge are fully visible
+constexpr double nudgeSeconds = 0.05, nudgeDb = 0.5, leapDb = 3.0;
+
+juce::String wordsOf(const GainPoint& point) {
+    return (point.db <= leastStripDb ? juce::String{"silent"} : number(point.db, 1) + " dB") + " at " +
+           number(point.seconds, 2) + " s";
+}
 
 } // namespace
 
@@ -72,8 +79,7 @@ void LanesTab::Rows::paint(juce::Graphics& g) {
 }
 
 void LanesTab::paint(juce::Graphics& g) {
-    g.setFont(text::font(text::small));
-    g.setColour(shade(*this, Shade::muted));
+    ink(g, *this, Shade::muted, text::small);
     const auto axis = foot_.withTrimmedLeft(labelWidth);
     g.drawText("0", axis, juce::Justification::centredLeft, false);
     g.drawText(number(std::max(10.0, spanSeconds_), 0) + " s of the scene", axis,
@@ -100,18 +106,6 @@ void LanesTab::resized() {
 
 // Mouse and keyboard editing of a gain lane; its vertical scale is that of a fader.
 
-namespace {
-
-constexpr float pointSize = 8.0f, pointInset = 5.0f; // so that points at the edge are fully visible
-constexpr double nudgeSeconds = 0.05, nudgeDb = 0.5, leapDb = 3.0;
-
-juce::String wordsOf(const GainPoint& point) {
-    return (point.db <= leastStripDb ? juce::String{"silent"} : number(point.db, 1) + " dB") + " at " +
-           number(point.seconds, 2) + " s";
-}
-
-} // namespace
-
 LaneRow::LaneRow(MixerModel& model, std::size_t number)
     : model_{model}
     , number_{number} {
@@ -136,8 +130,7 @@ std::vector<int> LaneRow::channels() const {
     if (!isGroup()) return {static_cast<int>(number_)};
     std::vector<int> all;
     for (int j = 0; j < model_.mix().count(); ++j)
-        if (model_.mix().strips[static_cast<std::size_t>(j)].group == static_cast<int>(group()))
-            all.push_back(j);
+        if (nth(model_.mix().strips, j).group == static_cast<int>(group())) all.push_back(j);
     return all;
 }
 
@@ -152,12 +145,10 @@ void LaneRow::mixChanged() {
 }
 
 void LaneRow::describeChosen() {
-    const auto points =
-        juce::String{static_cast<int>(lane().size())} + (lane().size() == 1 ? " point" : " points");
     const bool isOne = chosen_ >= 0;
     setDescription(lane().empty() ? juce::String{"no points"}
-                   : isOne        ? wordsOf(lane()[static_cast<std::size_t>(chosen_)])
-                                  : points);
+                   : isOne        ? wordsOf(nth(lane(), chosen_))
+                                  : countOf(lane().size(), "point"));
     setTooltip("Gain of " + name_ +
                " on top of its fader: click adds a point, drag moves it, right click takes it away. " +
                getDescription());
@@ -188,8 +179,7 @@ int LaneRow::nearest(juce::Point<float> place) const {
     int found = -1;
     float least = pointSize;
     for (int i = 0; i < static_cast<int>(lane().size()); ++i)
-        if (const float d = placeOf(lane()[static_cast<std::size_t>(i)]).getDistanceFrom(place); d < least)
-            least = d, found = i;
+        if (const float d = placeOf(nth(lane(), i)).getDistanceFrom(place); d < least) least = d, found = i;
     return found;
 }
 
@@ -281,7 +271,7 @@ bool LaneRow::keyPressed(const juce::KeyPress& key) {
         return describeChosen(), repaint(), true;
     }
     if (chosen_ < 0) return false;
-    GainPoint point = lane()[static_cast<std::size_t>(chosen_)];
+    GainPoint point = nth(lane(), chosen_);
     if (isSide)
         point.seconds += code == KeyPress::leftKey ? -nudgeSeconds : nudgeSeconds;
     else if (code == KeyPress::upKey || code == KeyPress::downKey)
@@ -295,9 +285,6 @@ bool LaneRow::keyPressed(const juce::KeyPress& key) {
 void LaneRow::drawWave(juce::Graphics& g) const {
     const auto area = getLocalBounds().toFloat().reduced(pointInset, 2.0f);
     const RunTrace& trace = model_.signals().run();
-    const auto shown = [](float sample) {
-        return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample);
-    }; // same scale as the scope
     for (const int j : channels()) {
         juce::RectangleList<float> columns;
         for (float x = 0.0f; x < area.getWidth(); x += 1.0f) {
@@ -305,7 +292,7 @@ void LaneRow::drawWave(juce::Graphics& g) const {
                          to = spanSeconds_ * static_cast<double>((x + 1.0f) / area.getWidth());
             if (from > trace.seconds()) break;
             const auto range = trace.range(j, from, to);
-            const float top = shown(range.highest), bottom = shown(range.lowest),
+            const float top = shownLevel(range.highest), bottom = shownLevel(range.lowest),
                         reach = 0.5f * area.getHeight();
             columns.addWithoutMerging({area.getX() + x, area.getCentreY() - reach * top - 0.5f, 1.0f,
                                        reach * (top - bottom) + 1.0f});
@@ -324,16 +311,14 @@ void LaneRow::drawLine(juce::Graphics& g) const {
     g.setColour(shade(*this, lane().empty() ? Shade::line : Shade::text));
     g.strokePath(line, juce::PathStrokeType{lane().empty() ? 1.0f : 1.6f});
     for (int i = 0; i < static_cast<int>(lane().size()); ++i) {
-        const auto at = juce::Rectangle<float>{pointSize, pointSize}.withCentre(
-            placeOf(lane()[static_cast<std::size_t>(i)]));
+        const auto at = juce::Rectangle<float>{pointSize, pointSize}.withCentre(placeOf(nth(lane(), i)));
         g.setColour(shade(*this, i == chosen_ ? Shade::accent : Shade::text));
         g.fillEllipse(i == chosen_ ? at.expanded(1.5f) : at.reduced(1.0f));
     }
 }
 
 void LaneRow::paint(juce::Graphics& g) {
-    g.setColour(shade(*this, Shade::well));
-    g.fillRoundedRectangle(getLocalBounds().toFloat(), 3.0f);
+    fillRound(g, *this, Shade::well, getLocalBounds().toFloat(), 3.0f);
     drawWave(g);
     const juce::Graphics::ScopedSaveState saved{g};
     g.reduceClipRegion(getLocalBounds());

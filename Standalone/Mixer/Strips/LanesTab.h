@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tab with the gain lanes of all strips and groups over the scene's time.
 #pragma once
-#include "Mixer/Model/MixerModel.h"
 #include "Mixer/Widgets/Parts.h"
 
 namespace physvib {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws each column from its minimum to its maximum; the square root of the level makes weak impacts visible.
 #include "Mixer/Strips/ScopeView.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 namespace {
@@ -10,7 +8,8 @@ namespace {
 constexpr int scopeFootHeight = 16, maxLanes = SpectrumView::maxCurves, minLabel = 26, afterLabel = 6,
               laneGap = 6;
 
-float shownLevel(float sample) { return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample); }
+constexpr float visibleDb = 0.3f;
+constexpr int levelsWidth = 30;
 
 } // namespace
 
@@ -42,8 +41,7 @@ void ScopeView::refresh(const MixerMoment&) {
 }
 
 void ScopeView::drawLane(juce::Graphics& g, juce::Rectangle<int> lane, int channel) const {
-    g.setColour(shade(*this, Shade::well));
-    g.fillRoundedRectangle(lane.toFloat(), 3.0f);
+    fillRound(g, *this, Shade::well, lane.toFloat(), 3.0f);
     const auto middle = static_cast<float>(lane.getCentreY()),
                reach = 0.5f * static_cast<float>(lane.getHeight()) - 2.0f;
     g.setColour(
@@ -65,16 +63,12 @@ void ScopeView::paint(juce::Graphics& g) {
     auto area = lanes_;
     const int lanes = std::min(mix.count(), maxLanes);
     const auto bold = text::font(text::medium, juce::Font::bold);
-    const auto labelOf = [&](int j) {
-        return utf8(mix.layout.enchanters[static_cast<std::size_t>(j)].label);
-    };
     int labelWidth = minLabel;
     for (int j = 0; j < lanes; ++j)
-        labelWidth = std::max(labelWidth, text::pixels(bold, labelOf(j)) + afterLabel);
+        labelWidth = std::max(labelWidth, text::pixels(bold, labelOf(mix, j)) + afterLabel);
     labelWidth = std::min(labelWidth, std::max(minLabel, area.getWidth() / 5)); // the rest is cut
     const auto foot = area.removeFromBottom(scopeFootHeight).withTrimmedLeft(labelWidth);
-    g.setFont(text::font(text::small));
-    g.setColour(shade(*this, Shade::muted));
+    ink(g, *this, Shade::muted, text::small);
     const auto begin = mix.count() > lanes
                            ? "the first " + juce::String{lanes} + " of " + juce::String{mix.count()}
                            : juce::String{juce::CharPointer_UTF8{"\xe2\x88\x92"
@@ -90,7 +84,7 @@ void ScopeView::paint(juce::Graphics& g) {
         auto lane = area.removeFromTop(height).withTrimmedBottom(j + 1 < lanes ? laneGap : 0);
         g.setColour(enchanterColour(*this, j));
         g.setFont(bold);
-        g.drawText(labelOf(j), lane.removeFromLeft(labelWidth).withTrimmedRight(2),
+        g.drawText(labelOf(mix, j), lane.removeFromLeft(labelWidth).withTrimmedRight(2),
                    juce::Justification::centredLeft, true);
         drawLane(g, lane, j);
     }
@@ -108,13 +102,6 @@ void ScopeView::resized() {
     lanes_ = area;
 }
 
-namespace {
-
-constexpr float visibleDb = 0.3f;
-constexpr int levelsWidth = 30;
-
-} // namespace
-
 SpectrumView::SpectrumView(MixerModel& model)
     : model_{model} {
     setTitle("Spectra");
@@ -123,7 +110,7 @@ SpectrumView::SpectrumView(MixerModel& model)
 }
 
 void SpectrumView::refresh() {
-    const double now = juce::Time::getMillisecondCounterHiRes();
+    const double now = nowMs();
     if (now - lookedAtMs_ < 1000.0 / looksPerSecond || model_.signals().scope().columnsBegun() == seen_)
         return;
     const auto fall = static_cast<float>(meterFallDbPerSecond * std::min(1.0, 1e-3 * (now - lookedAtMs_)));
@@ -132,7 +119,7 @@ void SpectrumView::refresh() {
     bool isOther = false;
     for (int j = 0; j < std::min(model_.mix().count(), maxCurves); ++j) {
         const auto levels = levelsOf(model_.signals().spectrum(), j);
-        auto& shown = shown_[static_cast<std::size_t>(j)];
+        auto& shown = nth(shown_, j);
         for (std::size_t k = 0; k < shown.size(); ++k) {
             const float next = std::max({levels[k], shown[k] - fall, FrequencyAxis::floorDb});
             isOther = isOther || std::abs(next - shown[k]) > visibleDb;
@@ -143,8 +130,7 @@ void SpectrumView::refresh() {
 }
 
 void SpectrumView::paint(juce::Graphics& g) {
-    g.setColour(shade(*this, Shade::well));
-    g.fillRoundedRectangle(getLocalBounds().withTrimmedBottom(18).toFloat(), 3.0f);
+    fillRound(g, *this, Shade::well, getLocalBounds().withTrimmedBottom(18).toFloat(), 3.0f);
     auto area = getLocalBounds().withTrimmedTop(6).withTrimmedRight(6);
     const auto levels = area.removeFromLeft(levelsWidth);
     area = drawFrequencyAxis(g, *this, area).withTrimmedBottom(2);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scope of the last second, one trace per actuator, with their spectra.
 #pragma once
-#include "Mixer/Model/MixerModel.h"
 #include "Mixer/Widgets/Parts.h"
 
 namespace physvib {
+
+/// Height of a sample in all waveforms: the square root makes weak impacts visible. Any thread.
+inline float shownLevel(float sample) {
+    return std::copysign(std::sqrt(std::min(1.0f, std::abs(sample))), sample);
+}
 
 /// Spectra of the actuators' output, one curve each, with fast attack and slow decay.
 class SpectrumView final : public juce::Component {
@@ -15,7 +19,7 @@ public:
 
     /// Updates if it is time; repaints if the change is visible.
     void refresh();
-    const SpectrumLevels& shown(int channel) const { return shown_[static_cast<std::size_t>(channel)]; }
+    const SpectrumLevels& shown(int channel) const { return nth(shown_, channel); }
     void paint(juce::Graphics& g) override;
 
 private:

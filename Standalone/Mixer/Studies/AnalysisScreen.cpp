@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Shows results of the same analysis functions as `physvib analyse`.
-#include "Mixer/Studies/AnalysisScreen.h"
-#include "Mixer/Model/MixerRecording.h"
-#include "Mixer/Studies/StudyParts.h"
+#include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Widgets/Cards.h"
 
 namespace physvib {
@@ -13,7 +11,7 @@ constexpr int analysisHeadHeight = 56, wordsWidth = 430;
 
 std::vector<std::string> pathsOf(const std::vector<juce::File>& files) {
     std::vector<std::string> paths;
-    for (const auto& file : files) paths.push_back(file.getFullPathName().toStdString());
+    for (const auto& file : files) paths.push_back(pathOf(file));
     return paths;
 }
 
@@ -66,8 +64,7 @@ AnalysisScreen::AnalysisScreen(MixerModel& model, const juce::String& title)
     setFocusContainerType(FocusContainerType::keyboardFocusContainer);
     kind_.setTitle("Kind of analysis");
     kind_.onChange = [this] { run(kind_.getText().toLowerCase().replaceCharacter(' ', '-').toStdString()); };
-    choose_ = quietButton("Choose files", "Choose the files to be analysed");
-    choose_->onClick = [this] { browse(); };
+    choose_ = quietButton("Choose files", "Choose the files to be analysed", [this] { browse(); });
     close_ = quietButton("Close", "Close the analysis");
     close_->onClick = [this] {
         // asynchronous, because it deletes this component
@@ -92,14 +89,6 @@ void AnalysisScreen::refresh() {
     silence_.setButtonText(model_.isSilent() ? "SILENT: press to feel" : "SILENCE  Esc");
     silence_.setToggleState(model_.isSilent(), juce::dontSendNotification);
 }
-
-AnalysisScreen::~AnalysisScreen() = default;
-
-void AnalysisScreen::parentSizeChanged() {
-    if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
-}
-
-void AnalysisScreen::parentHierarchyChanged() { showWords(); }
 
 bool AnalysisScreen::keyPressed(const juce::KeyPress& key) {
     if (!key.isKeyCode(juce::KeyPress::returnKey)) return false;
@@ -162,8 +151,7 @@ void AnalysisScreen::showWords() {
 
 void AnalysisScreen::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::ground));
-    g.setColour(shade(*this, Shade::text));
-    g.setFont(text::font(text::large, juce::Font::bold));
+    ink(g, *this, Shade::text, text::large, juce::Font::bold);
     auto title = files_.empty() ? title_ : files_.front().getFileName();
     if (files_.size() > 1) title << " and " << static_cast<int>(files_.size() - 1) << " more";
     g.drawText(title, titleArea_, juce::Justification::centredLeft, true);

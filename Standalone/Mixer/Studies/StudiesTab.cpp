@@ -5,9 +5,6 @@
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Live/Documents/Mix.h"
-#include "Mixer/Model/MixerRecording.h"
-#include "Mixer/Studies/StudyParts.h"
 #include "Mixer/Widgets/Cards.h"
 
 namespace physvib {
@@ -18,9 +15,8 @@ constexpr int fileId = 1000, noNoiseId = 1, protocolWordsId = 1, englishId = 2, 
 constexpr int answersHereId = 1, answersElsewhereId = 2;
 constexpr std::array<int, 8> noiseLevels{-70, -60, -50, -45, -40, -35, -30, -25};
 
-std::filesystem::path pathOf(const juce::String& words) {
-    return std::filesystem::path{
-        juce::File::getCurrentWorkingDirectory().getChildFile(words).getFullPathName().toStdString()};
+std::filesystem::path typedPath(const juce::String& words) {
+    return std::filesystem::path{pathOf(juce::File::getCurrentWorkingDirectory().getChildFile(words))};
 }
 
 juce::String exposureWords(const std::vector<TrialRecord>& records) {
@@ -38,6 +34,16 @@ juce::String aboutText(const Protocol& protocol) {
     return title.substring(0, 1).toUpperCase() + title.substring(1) +
            ".\nConditions: " + conditions.joinIntoString(", ") +
            ".\nIn each: " + sessions.joinIntoString(", ") + ".";
+}
+
+/// The layout of the most actuators, with its name.
+std::pair<std::string, LayoutDescription> largestLayout(const Protocol& protocol) {
+    std::pair<std::string, LayoutDescription> largest;
+    for (const ConditionPlan& condition : protocol.conditions)
+        if (auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
+            layout && layout.value.enchanters.size() > largest.second.enchanters.size())
+            largest = {condition.layout, std::move(layout.value)};
+    return largest;
 }
 
 } // namespace
@@ -76,10 +82,12 @@ StudiesTab::StudiesTab(MixerModel& model)
              "Decides the orders: 1 for the first participant, 2 for the second");
     number_.setInputRestrictions(6, "0123456789");
     folder_.setTitle("Folder of the trial files");
-    browse_ = quietButton("Choose", "Choose the folder of the trial files");
-    browse_->onClick = [this] { browseFolder(); };
-    analyse_ = quietButton("Analyse", "Analyse the participant's trials, or other files");
-    analyse_->onClick = [this] { analyse(); };
+    browse_ = quietButton("Choose", "Choose the folder of the trial files", [this] {
+        askForFile(*this, {"The folder of the trial files", {}, juce::File{folder_.getText()}},
+                   [this](const juce::File& folder) { setFolder(folder); });
+    });
+    analyse_ =
+        quietButton("Analyse", "Analyse the participant's trials, or other files", [this] { analyse(); });
     findings_ = quietButton("Checking" + dots(), "What `study check` found: levels, orders, times");
     findings_->setTitle("Findings of the check");
     findings_->onClick = [this] { showFindings(); };
@@ -136,23 +144,14 @@ std::string StudiesTab::chooseProtocol(const std::string& nameOrPath) {
 void StudiesTab::pickProtocol() {
     const int id = choice_.getSelectedId();
     if (id == fileId)
-        browseProtocol();
+        askForFile(
+            *this, {"A protocol", ".json", juce::File{folder_.getText()}},
+            [this](const juce::File& file) { chooseProtocol(pathOf(file)); },
+            [this] {
+                if (protocol_) choice_.setText(titleOf(protocol_->name), juce::dontSendNotification);
+            });
     else if (id > 0)
-        chooseProtocol(knownProtocols()[static_cast<std::size_t>(id - 1)].name), offerLayout();
-}
-
-void StudiesTab::browseProtocol() {
-    askForFile(
-        *this, {"A protocol", ".json", juce::File{folder_.getText()}},
-        [this](const juce::File& file) { chooseProtocol(file.getFullPathName().toStdString()); },
-        [this] {
-            if (protocol_) choice_.setText(titleOf(protocol_->name), juce::dontSendNotification);
-        });
-}
-
-void StudiesTab::browseFolder() {
-    askForFile(*this, {"The folder of the trial files", {}, juce::File{folder_.getText()}},
-               [this](const juce::File& folder) { setFolder(folder); });
+        chooseProtocol(nth(knownProtocols(), id - 1).name), offerLayout();
 }
 
 std::string StudiesTab::chooseWords(const std::string& nameOrPath) {
@@ -175,20 +174,16 @@ std::string StudiesTab::chooseWords(const std::string& nameOrPath) {
 void StudiesTab::pickWords() {
     const int id = wordsChoice_.getSelectedId();
     if (id == fileId)
-        browseWords();
+        askForFile(
+            *this, {"Words of a language", ".json", juce::File{folder_.getText()}},
+            [this](const juce::File& file) {
+                if (!chooseWords(pathOf(file)).empty()) chooseWords(wordsPath_);
+            },
+            [this] { chooseWords(wordsPath_); });
     else if (id == protocolWordsId || id == englishId)
         chooseWords(id == englishId ? "en" : "");
     else if (id >= firstWordsId)
-        chooseWords(builtInWords()[static_cast<std::size_t>(id - firstWordsId)].name);
-}
-
-void StudiesTab::browseWords() {
-    askForFile(
-        *this, {"Words of a language", ".json", juce::File{folder_.getText()}},
-        [this](const juce::File& file) {
-            if (!chooseWords(file.getFullPathName().toStdString()).empty()) chooseWords(wordsPath_);
-        },
-        [this] { chooseWords(wordsPath_); });
+        chooseWords(nth(builtInWords(), id - firstWordsId).name);
 }
 
 void StudiesTab::setAnswersElsewhere(bool areElsewhere) {
@@ -251,7 +246,7 @@ ListeningSettings StudiesTab::listening() const {
     ListeningSettings l;
     if (const int index = noise_.getSelectedId() - noNoiseId - 1;
         index >= 0 && index < static_cast<int>(noiseOutputs_.size()))
-        l.noise = noiseOutputs_[static_cast<std::size_t>(index)];
+        l.noise = nth(noiseOutputs_, index);
     l.noiseDb = noiseLevel_.getSelectedId() > 0 ? -noiseLevel_.getSelectedId()
                 : protocol_                     ? protocol_->pinkNoiseDb
                                                 : PinkNoise::safeDb;
@@ -261,7 +256,7 @@ ListeningSettings StudiesTab::listening() const {
 StudyRun StudiesTab::run() const {
     return {*protocol_,
             {code_.getText().toStdString(), std::clamp(number_.getText().getIntValue(), 1, 100000), "person"},
-            pathOf(folder_.getText())};
+            typedPath(folder_.getText())};
 }
 
 bool StudiesTab::isDone(const StudyRun& run, const std::vector<TrialRecord>& records) {
@@ -348,20 +343,6 @@ void StudiesTab::say(const juce::String& words, Shade shade) {
     wordsShade_ = shade;
     repaint();
 }
-
-namespace {
-
-/// The layout of the most actuators, with its name.
-std::pair<std::string, LayoutDescription> largestLayout(const Protocol& protocol) {
-    std::pair<std::string, LayoutDescription> largest;
-    for (const ConditionPlan& condition : protocol.conditions)
-        if (auto layout = layoutNamed(besideProtocol(protocol.folder, condition.layout));
-            layout && layout.value.enchanters.size() > largest.second.enchanters.size())
-            largest = {condition.layout, std::move(layout.value)};
-    return largest;
-}
-
-} // namespace
 
 // More actuators than the mixer has, or headphones, cannot be had by a choice of outputs.
 void StudiesTab::offerLayout() {
@@ -539,8 +520,7 @@ void StudiesTab::paint(juce::Graphics& g) {
 }
 
 void StudiesTab::resized() {
-    constexpr int captionHeight = 15, space = 5, foot = 32, lower = 24; // all of it, with Begin, in a small
-                                                                        // window
+    constexpr int captionHeight = 15, space = 5, foot = 32, lower = 24; // all of it in a small window
     const int line = std::clamp((getHeight() - controlsHeight) / 5 + 21, 21, rowHeight);
     auto area = getLocalBounds();
     const auto caption = [&area](juce::Label& label) { label.setBounds(area.removeFromTop(captionHeight)); };

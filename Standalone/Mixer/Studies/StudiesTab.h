@@ -1,17 +1,58 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mixer tab that selects a study, a participant and an output folder, then covers the window with the study's
-// screen.
+// screen, or with the analysis of its trials: figures of `physvib analyse`, warnings and picture.
 #pragma once
-#include "Mixer/Studies/AnalysisScreen.h"
+#include "Lab/Analysis/Analysis.h"
 #include "Mixer/Studies/StudyScreen.h"
-#include "Mixer/Widgets/MasterStrip.h"
-#include "Mixer/Widgets/Parts.h"
 #include "Mixer/Widgets/Typefaces.h"
 #include "Studies/StudyCheck.h"
 #include <atomic>
 #include <future>
 
 namespace physvib {
+
+/// Fills its parent. Message thread.
+class AnalysisScreen final : public juce::Component {
+public:
+    AnalysisScreen(MixerModel& model, const std::vector<juce::File>& files);
+    /// Shows this report instead, under that title.
+    AnalysisScreen(MixerModel& model, const juce::String& title, AnalysisReport report);
+
+    std::function<void()> onClose;
+
+    /// Shows the first analysis that fits the trial files of one study, or any table that `physvib analyse`
+    /// accepts.
+    void analyse(const std::vector<juce::File>& files);
+    const AnalysisReport& report() const noexcept { return report_; }
+    const juce::Drawable* picture() const noexcept { return picture_.get(); }
+
+    void refresh(); ///< updates the silence button
+
+    bool keyPressed(const juce::KeyPress& key) override;
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+    void parentSizeChanged() override {
+        if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
+    }
+    void parentHierarchyChanged() override { showWords(); }
+
+private:
+    AnalysisScreen(MixerModel& model, const juce::String& title);
+    void browse();
+    void run(const std::string& name);
+    void showWords();
+
+    MixerModel& model_;
+    juce::String title_;
+    std::vector<juce::File> files_;
+    AnalysisReport report_;
+    std::unique_ptr<juce::Drawable> picture_;
+    juce::ComboBox kind_;
+    juce::TextEditor words_;
+    std::unique_ptr<juce::TextButton> choose_, close_;
+    juce::TextButton silence_; // the world continues behind this screen
+    juce::Rectangle<int> titleArea_, pictureArea_;
+};
 
 /// Selections by the command line; empty or 0: unchanged.
 struct StudyCall {
@@ -74,8 +115,6 @@ public:
 private:
     static constexpr int controlsHeight = 256; // with a line of advice
     void pickProtocol();
-    void browseProtocol();
-    void browseFolder();
     static bool isDone(const StudyRun& run, const std::vector<TrialRecord>& records);
     void offerLayout();
     void offerLevel(double db);
@@ -83,7 +122,6 @@ private:
     void look();
     void listNoise();
     void pickWords();
-    void browseWords();
     ListeningSettings listening() const;
     void say(const juce::String& words, Shade shade);
     void stopCheck();

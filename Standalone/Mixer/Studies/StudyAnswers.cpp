@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Layout of the answer component and its confirm button.
-#include "Mixer/Studies/StudyAnswers.h"
 #include "Host/Views/WorldView.h"
 #include "Io/Text/NumberText.h"
-#include <cmath>
+#include "Mixer/Studies/StudyParts.h"
 
 namespace physvib {
 namespace {
@@ -43,9 +42,7 @@ StudyAnswerPane::StudyAnswerPane(const StudyWords& words)
     setWantsKeyboardFocus(true);
     setFocusContainerType(FocusContainerType::keyboardFocusContainer);
     confirm_.setMain(true);
-    confirm_.onClick = [this] {
-        if (onConfirm) onConfirm();
-    };
+    confirm_.onClick = [this] { onConfirm(); };
     addChildComponent(confirm_);
 }
 
@@ -84,13 +81,11 @@ void StudyAnswerPane::setQuestion(const juce::String& question) {
 void StudyAnswerPane::paint(juce::Graphics& g) {
     if (standsAlone_) {
         g.fillAll(shade(*this, Shade::ground));
-        g.setColour(shade(*this, Shade::text));
-        g.setFont(text::font(text::large, juce::Font::bold));
+        ink(g, *this, Shade::text, text::large, juce::Font::bold);
         g.drawFittedText(question_, questionArea_, juce::Justification::centred, 2, 1.0f);
     }
     if (!answer_ || !answer_->isVisible()) return;
-    g.setColour(shade(*this, Shade::muted));
-    g.setFont(text::font(text::small));
+    ink(g, *this, Shade::muted, text::small);
     g.drawText(say_(answer_->keys()), keysArea_, juce::Justification::centredLeft, true);
 }
 
@@ -142,11 +137,11 @@ public:
                   down = (count + across - 1) / across;
         auto area = column(getLocalBounds(), 260 * across, 84 * down);
         for (int i = 0; i < count; ++i)
-            buttons_[static_cast<std::size_t>(i)]->setBounds(
-                juce::Rectangle<int>{area.getX() + i % across * area.getWidth() / across,
-                                     area.getY() + i / across * area.getHeight() / down,
-                                     area.getWidth() / across, area.getHeight() / down}
-                    .reduced(5));
+            nth(buttons_, i)
+                ->setBounds(juce::Rectangle<int>{area.getX() + i % across * area.getWidth() / across,
+                                                 area.getY() + i / across * area.getHeight() / down,
+                                                 area.getWidth() / across, area.getHeight() / down}
+                                .reduced(5));
     }
 
 private:
@@ -190,7 +185,7 @@ private:
         for (std::size_t i = 0; i < buttons_.size(); ++i)
             buttons_[i]->setToggleState(parts_[i] == response, juce::dontSendNotification);
     }
-    void choosePart(int i) { choose(parts_[static_cast<std::size_t>(i)]); }
+    void choosePart(int i) { choose(nth(parts_, i)); }
     const std::vector<std::string> parts_;
     std::vector<std::unique_ptr<BigButton>> buttons_;
 };
@@ -248,12 +243,10 @@ public:
     void paint(juce::Graphics& g) override {
         for (const auto& scale : scales_) {
             auto row = scale->area;
-            g.setColour(shade(*this, isEnabled() ? Shade::text : Shade::muted));
-            g.setFont(text::font(text::large));
+            ink(g, *this, isEnabled() ? Shade::text : Shade::muted, text::large);
             auto words = row.removeFromTop(28);
             g.drawText(scale->name, words.removeFromLeft(150), juce::Justification::centredLeft, true);
-            g.setColour(shade(*this, Shade::muted));
-            g.setFont(text::font(text::medium));
+            ink(g, *this, Shade::muted, text::medium);
             g.drawText(scale->meaning, words, juce::Justification::centredLeft, true);
             for (int point = 1; point <= points_; ++point)
                 g.fillEllipse(juce::Rectangle<float>{8.0f, 8.0f}.withCentre(
@@ -290,7 +283,7 @@ private:
         scale.isMoved = true;
         scale.slider.getProperties().remove(tintProperty);
         repaint();
-        if (onChange) onChange();
+        onChange();
     }
     const StudyWords& say_;
     const std::vector<std::string> anchors_;
@@ -313,11 +306,7 @@ public:
         softer_.onClick = [this] { step(-1.0); };
         stronger_.onClick = [this] { step(1.0); };
     }
-    Answer answer() const override {
-        Answer answer;
-        answer.value = db_;
-        return answer;
-    }
+    Answer answer() const override { return {.response = {}, .place = {}, .scores = {}, .value = db_}; }
     bool isComplete() const override { return true; }
     bool isOpen() const override { return true; }
     std::string keys() const override { return "Up, down: level.  Enter: they are equal."; }
@@ -329,8 +318,7 @@ public:
     }
     void beginAnew() override {}
     void paint(juce::Graphics& g) override {
-        g.setColour(shade(*this, Shade::well));
-        g.fillRoundedRectangle(bar_, 8.0f);
+        fillRound(g, *this, Shade::well, bar_, 8.0f);
         const double share = (db_ - adjustment_.leastDb) / (adjustment_.mostDb - adjustment_.leastDb);
         g.setColour(shade(*this, Shade::accent).withMultipliedAlpha(isEnabled() ? 1.0f : 0.4f));
         g.fillRoundedRectangle(bar_.withWidth(std::max(16.0f, bar_.getWidth() * static_cast<float>(share))),
@@ -349,7 +337,7 @@ private:
     void step(double ways) {
         db_ = std::clamp(db_ + ways * adjustment_.stepDb, adjustment_.leastDb, adjustment_.mostDb);
         repaint();
-        if (onChange) onChange();
+        onChange();
     }
     const Adjustment adjustment_;
     double db_;
@@ -377,9 +365,7 @@ protected:
         typed_.isSpaceTyped = isSpaceTyped;
         typed_.setTitle(title);
         typed_.setFont(text::font(text::large));
-        typed_.onTextChange = [this] {
-            if (onChange) onChange();
-        };
+        typed_.onTextChange = [this] { onChange(); };
         typed_.setEscapeAndReturnKeysConsumed(false); // so that Esc silences and Enter confirms
         addAndMakeVisible(typed_);
     }

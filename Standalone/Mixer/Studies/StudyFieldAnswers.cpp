@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Answers on the field: a cell of a grid, or any place.
-#include "Mixer/Studies/StudyAnswers.h"
 #include "Mixer/Studies/StudyParts.h"
 #include "Stimuli/Stimulus.h"
-#include <cmath>
-#include <functional>
 #include <map>
-#include <utility>
 
 namespace physvib {
 namespace {
@@ -54,8 +50,7 @@ public:
         repaint();
     }
     void paint(juce::Graphics& g) override {
-        g.setColour(shade(*this, Shade::well));
-        g.fillRoundedRectangle(field().expanded(cellMargin - 6.0f), 14.0f);
+        fillRound(g, *this, Shade::well, field().expanded(cellMargin - 6.0f), 14.0f);
         for (int j = 0; j < layout_.geometry.count; ++j) drawEnchanterBeside(g, *this, field(), layout_, j);
     }
     void resized() override {
@@ -95,11 +90,7 @@ public:
         setWantsKeyboardFocus(true);
         setMouseCursor(juce::MouseCursor::CrosshairCursor);
     }
-    Answer answer() const override {
-        Answer answer;
-        answer.place = marked_;
-        return answer;
-    }
+    Answer answer() const override { return {.response = {}, .place = marked_, .scores = {}}; }
     bool isComplete() const override { return marked_.has_value(); }
     std::string keys() const override { return "Arrows (Shift: far) and Enter: place.  Enter: confirm."; }
     void beginAnew() override { grabKeyboardFocus(); }
@@ -162,8 +153,8 @@ private:
     void acceptMark() {
         marked_ = mark_;
         repaint();
-        if (onChange) onChange();
-        if (onAnswer) onAnswer();
+        onChange();
+        onAnswer();
     }
 
     const LayoutDescription layout_;
@@ -189,7 +180,7 @@ namespace {
 /// Red, green, purple, as printed; light enough for the dark number on it.
 juce::Colour orderColour(int pulse) {
     constexpr std::array<palette::Argb, 3> colours{0xffff6b6b, 0xff5fd07a, 0xffc38bff};
-    return juce::Colour{colours[static_cast<std::size_t>(pulse)]};
+    return juce::Colour{nth(colours, pulse)};
 }
 
 void drawPulse(juce::Graphics& g, juce::Point<float> at, float radius, int pulse, float light) {
@@ -209,10 +200,7 @@ public:
         , pattern{p}
         , layout_{layout} {
         juce::StringArray words;
-        for (int k = 0; k < p.count; ++k)
-            words.add(
-                utf8(layout.enchanters[static_cast<std::size_t>(p.enchanters[static_cast<std::size_t>(k)])]
-                         .label));
+        for (int k = 0; k < p.count; ++k) words.add(utf8(nth(layout.enchanters, nth(p.enchanters, k)).label));
         setTitle(words.joinIntoString(" then ") + ", " +
                  juce::String{juce::roundToInt(1e3 * p.pulseSeconds)} + " ms");
     }
@@ -228,8 +216,7 @@ public:
         for (int j = 0; j < layout_.geometry.count; ++j) {
             const auto at = pointOn(inner, placeOf(layout_.geometry, j));
             int here = 0;
-            for (int k = 0; k < pattern.count; ++k)
-                here += pattern.enchanters[static_cast<std::size_t>(k)] == j ? 1 : 0;
+            for (int k = 0; k < pattern.count; ++k) here += nth(pattern.enchanters, k) == j ? 1 : 0;
             if (here == 0) {
                 g.setColour(shade(*this, Shade::muted).withMultipliedAlpha(0.55f * light));
                 g.drawEllipse(juce::Rectangle<float>{7.0f, 7.0f}.withCentre(at), 1.5f);
@@ -239,7 +226,7 @@ public:
                                  static_cast<float>(getWidth()) - 4.0f - radius -
                                      static_cast<float>(here - 1) * 2.0f * radius);
             for (int k = 0; k < pattern.count; ++k) {
-                if (pattern.enchanters[static_cast<std::size_t>(k)] != j) continue;
+                if (nth(pattern.enchanters, k) != j) continue;
                 drawPulse(g, {x, at.y}, radius, k, light);
                 x += 2.0f * radius;
             }
@@ -262,7 +249,7 @@ public:
         for (const StimulusItem& item : stimuliOf(condition))
             if (const auto pattern = parsePatternLabel(item.label)) addIcon(*pattern);
         for (int j = 0; j < layout_.geometry.count; ++j) {
-            const auto label = utf8(layout_.enchanters[static_cast<std::size_t>(j)].label);
+            const auto label = utf8(nth(layout_.enchanters, j).label);
             auto& button = firsts_.emplace_back(std::make_unique<BigButton>(label, "First pulse: " + label));
             button->onClick = [this, j] { chooseFirst(j); };
             addAndMakeVisible(*button);
@@ -274,7 +261,7 @@ public:
         const auto typed =
             juce::String::charToString(juce::CharacterFunctions::toUpperCase(key.getTextCharacter()));
         for (int j = 0; j < layout_.geometry.count; ++j)
-            if (isEnabled() && typed == utf8(layout_.enchanters[static_cast<std::size_t>(j)].label))
+            if (isEnabled() && typed == utf8(nth(layout_.enchanters, j).label))
                 return chooseFirst(j), focusIcons(), true;
         return moveFocus(*this, key);
     }
@@ -286,26 +273,21 @@ public:
 
     void paint(juce::Graphics& g) override {
         const auto heading = [&](const juce::String& words, juce::Rectangle<int> row) {
-            g.setColour(shade(*this, isEnabled() ? Shade::text : Shade::muted));
-            g.setFont(text::font(text::medium, juce::Font::bold));
+            ink(g, *this, isEnabled() ? Shade::text : Shade::muted, text::medium, juce::Font::bold);
             g.drawText(words, row, juce::Justification::centredLeft, true);
         };
         heading("1   " + say_("Place of the first pulse"), firstHeading_);
         heading("2   " + say_("Whole pattern"), iconHeading_);
-        g.setColour(shade(*this, Shade::well));
-        g.fillRoundedRectangle(field_.expanded(50.0f, 44.0f), 12.0f);
+        fillRound(g, *this, Shade::well, field_.expanded(50.0f, 44.0f), 12.0f);
         auto legend = iconHeading_.withTrimmedLeft(170);
         static constexpr std::array names{"first", "second", "third"};
         for (int k = 0; k < 3; ++k) {
             auto part = legend.removeFromLeft(92);
             drawPulse(g, part.removeFromLeft(20).toFloat().getCentre(), 8.5f, k, 1.0f);
-            g.setColour(shade(*this, Shade::muted));
-            g.setFont(text::font(text::small));
-            g.drawText(say_(names[static_cast<std::size_t>(k)]), part.withTrimmedLeft(6),
-                       juce::Justification::centredLeft, true);
+            ink(g, *this, Shade::muted, text::small);
+            g.drawText(say_(nth(names, k)), part.withTrimmedLeft(6), juce::Justification::centredLeft, true);
         }
-        g.setColour(shade(*this, Shade::muted));
-        g.setFont(text::font(text::medium));
+        ink(g, *this, Shade::muted, text::medium);
         if (first_ < 0)
             g.drawText(say_("Choose the first pulse's place."), iconsArea_, juce::Justification::centred,
                        true);
@@ -323,8 +305,9 @@ public:
         field_ = fieldIn(left.removeFromTop(std::min(left.getHeight(), 300)).toFloat().reduced(50.0f, 44.0f),
                          layout_.geometry);
         for (int j = 0; j < layout_.geometry.count; ++j)
-            firsts_[static_cast<std::size_t>(j)]->setBounds(juce::Rectangle<int>{72, 64}.withCentre(
-                pointOn(field_, placeOf(layout_.geometry, j)).toInt()));
+            nth(firsts_, j)
+                ->setBounds(juce::Rectangle<int>{72, 64}.withCentre(
+                    pointOn(field_, placeOf(layout_.geometry, j)).toInt()));
         iconsArea_ = area;
         placeIcons();
     }

@@ -5,8 +5,6 @@
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 
@@ -60,11 +58,9 @@ void BigButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
     if (share_ >= 0.0) {
         auto bar = area.removeFromBottom(5).toFloat();
         area.removeFromBottom(3);
-        g.setColour(shade(*this, Shade::line));
-        g.fillRoundedRectangle(bar, 2.5f);
-        g.setColour(shade(*this, Shade::accent));
-        g.fillRoundedRectangle(bar.withWidth(bar.getWidth() * static_cast<float>(std::min(1.0, share_))),
-                               2.5f);
+        fillRound(g, *this, Shade::line, bar, 2.5f);
+        fillRound(g, *this, Shade::accent,
+                  bar.withWidth(bar.getWidth() * static_cast<float>(std::min(1.0, share_))), 2.5f);
     }
     const int line = 24, lines = remark_.isEmpty() ? line : line + 20;
     area = area.withSizeKeepingCentre(area.getWidth(), std::min(lines, area.getHeight()));
@@ -99,7 +95,7 @@ juce::Rectangle<float> fieldIn(juce::Rectangle<float> area, const EnchanterLayou
 }
 
 FieldPlace placeOf(const EnchanterLayout& layout, int enchanter) {
-    const auto& place = layout.places[static_cast<std::size_t>(enchanter)];
+    const auto& place = nth(layout.places, enchanter);
     return {place.xMetres / layout.extentWidthMetres, 1.0 - place.yMetres / layout.extentHeightMetres};
 }
 
@@ -118,16 +114,31 @@ void drawRing(juce::Graphics& g, const juce::Component& component, juce::Point<f
     g.setColour(enchanterColour(component, enchanter));
     g.drawEllipse(ring, 2.0f);
     g.setFont(text::font(text::small, juce::Font::bold));
-    g.drawText(utf8(layout.enchanters[static_cast<std::size_t>(enchanter)].label), ring,
-               juce::Justification::centred, false);
+    g.drawText(utf8(nth(layout.enchanters, enchanter).label), ring, juce::Justification::centred, false);
+}
+
+constexpr std::size_t maxPictureBytes = 16'000'000;
+constexpr unsigned mostPixels = 4096; // maximum width and height
+
+/// Reads a side of a PNG: a big-endian number after its signature.
+unsigned sideAt(const std::string& png, std::size_t at) {
+    unsigned side = 0;
+    for (std::size_t i = at; i < at + 4; ++i) side = 256 * side + static_cast<unsigned char>(png[i]);
+    return side;
+}
+
+bool isSmallPng(const std::string& text) {
+    constexpr std::string_view begin{"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16};
+    if (text.size() < 24 || !text.starts_with(begin)) return false;
+    return std::ranges::all_of(std::initializer_list<unsigned>{sideAt(text, 16), sideAt(text, 20)},
+                               [](unsigned side) { return side > 0 && side <= mostPixels; });
 }
 
 } // namespace
 
 void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field,
                const LayoutDescription& layout) {
-    g.setColour(shade(component, Shade::well));
-    g.fillRoundedRectangle(field, 10.0f);
+    fillRound(g, component, Shade::well, field, 10.0f);
     g.setColour(shade(component, Shade::line));
     g.drawRoundedRectangle(field, 10.0f, 1.5f);
     for (int j = 0; j < layout.geometry.count; ++j)
@@ -247,27 +258,6 @@ juce::String minutesText(double seconds) {
 }
 
 // Loads pictures for participants. Picture files are untrusted, so their size is checked before decoding.
-
-namespace {
-
-constexpr std::size_t maxPictureBytes = 16'000'000;
-constexpr unsigned mostPixels = 4096; // maximum width and height
-
-/// Reads a side of a PNG: a big-endian number after its signature.
-unsigned sideAt(const std::string& png, std::size_t at) {
-    unsigned side = 0;
-    for (std::size_t i = at; i < at + 4; ++i) side = 256 * side + static_cast<unsigned char>(png[i]);
-    return side;
-}
-
-bool isSmallPng(const std::string& text) {
-    constexpr std::string_view begin{"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16};
-    if (text.size() < 24 || !text.starts_with(begin)) return false;
-    return std::ranges::all_of(std::initializer_list<unsigned>{sideAt(text, 16), sideAt(text, 20)},
-                               [](unsigned side) { return side > 0 && side <= mostPixels; });
-}
-
-} // namespace
 
 Result<std::vector<MaterialPicture>> materialPictures(const Protocol& protocol,
                                                       const std::string& participant) {

@@ -1,34 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plays a stimulus in the mixer's session: controls first, then its events slightly later.
-#include "Mixer/Studies/StudyPlayback.h"
 #include "Core/Units.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Documents/Mix.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
+#include "Mixer/Studies/StudyScreen.h"
 #include "Scene/SceneEdits.h"
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <utility>
 
 namespace physvib {
 namespace {
 
 using Kind = RenderControl::Kind;
-constexpr std::int64_t leadNs = 50'000'000; // controls of the same session time may be applied after an
-                                            // event, and gains are ramped
+constexpr std::int64_t leadNs = 50'000'000; // gains are ramped, and may come after an event of their time
 
 // What is compared with the plan: actuators at most so far below the loudest one, above what a float keeps.
 constexpr double comparedShare = 0.01, minCompared = 1e-4, toleranceDb = 1.0;
-constexpr double longestPauseMs = 1e-6 * DevicePulse::goneNs + 500.0; // a device that returns later plays
-                                                                      // nothing of before
-constexpr double maxPlannedSeconds = 60.0; // receipts are kept that long, and a plan is rendered while one
-                                           // waits
+constexpr double longestPauseMs = 1e-6 * DevicePulse::goneNs + 500.0; // then nothing of before is played
+constexpr double maxPlannedSeconds = 60.0; // as receipts are kept; a plan is rendered while one waits
 
 constexpr const char* noControls = "The session took no more controls: expected a device that plays";
+
+constexpr std::int32_t textFormat = 3; // cft_string
+constexpr double noRate = 0.0;         // LSL_IRREGULAR_RATE
+constexpr std::int32_t keptSeconds = 360;
+
+/// Usual library names per system; PHYSVIB_LSL names another.
+juce::StringArray libraryNames() {
+    if (const auto own = juce::SystemStats::getEnvironmentVariable("PHYSVIB_LSL", {}); own.isNotEmpty())
+        return {own};
+    return {"liblsl.so.2", "liblsl.so", "liblsl.2.dylib", "liblsl.dylib", "lsl.dll"};
+}
+
+constexpr std::int64_t fadeNs = 100'000'000;  // longer than any fade-out by limits::stealFadePerSecond
+constexpr std::int64_t askedNs = 500'000'000; // of receipts at a time, which are kept for a minute
 
 } // namespace
 
@@ -49,7 +55,7 @@ StudySound::~StudySound() {
     useRecordings({});
     const auto felt = feltStrips(mix);
     for (int j = 0; j < mix.count(); ++j) {
-        post(Kind::gain, j, channelGain(felt[static_cast<std::size_t>(j)]));
+        post(Kind::gain, j, channelGain(nth(felt, j)));
         post(Kind::mute, j, mix.isSilent(j) ? 1.0f : 0.0f);
     }
     model_.setSlowness(slowness_);
@@ -194,21 +200,6 @@ void StudySound::stop() {
 
 // Loads liblsl at run time: the six functions of its C interface (1.14 and newer) that markers need.
 
-namespace {
-
-constexpr std::int32_t textFormat = 3; // cft_string
-constexpr double noRate = 0.0;         // LSL_IRREGULAR_RATE
-constexpr std::int32_t keptSeconds = 360;
-
-/// Usual library names per system; PHYSVIB_LSL names another.
-juce::StringArray libraryNames() {
-    if (const auto own = juce::SystemStats::getEnvironmentVariable("PHYSVIB_LSL", {}); own.isNotEmpty())
-        return {own};
-    return {"liblsl.so.2", "liblsl.so", "liblsl.2.dylib", "liblsl.dylib", "lsl.dll"};
-}
-
-} // namespace
-
 struct StudyMarkers::Outlet {
     juce::DynamicLibrary library;
     void* (*createInfo)(const char* name, const char* type, std::int32_t channels, double rateHz,
@@ -250,22 +241,12 @@ StudyMarkers::StudyMarkers(const std::string& protocol) {
 
 StudyMarkers::~StudyMarkers() = default;
 
-bool StudyMarkers::isOpen() const noexcept { return outlet_ != nullptr; }
-
 void StudyMarkers::push(const std::string& words, double secondsFromNow) {
     if (!isOpen()) return;
     const std::string line = cleanLine(words);
     const char* text = line.c_str();
     outlet_->pushText(outlet_->outlet, &text, outlet_->clock() + secondsFromNow);
 }
-
-namespace {
-
-constexpr std::int64_t fadeNs = 100'000'000;  // longer than the fade-out of any mode, by
-                                              // limits::stealFadePerSecond
-constexpr std::int64_t askedNs = 500'000'000; // of receipts at a time, which are kept for a minute
-
-} // namespace
 
 std::string StudyWorld::refusal(const MixerModel& model, const FeltWorld& world) {
     const int wanted = world.layout.geometry.count, there = model.mix().count();
@@ -457,8 +438,6 @@ void StudyWorldPane::preview(const Scene& scene) {
 void StudyWorldPane::refresh() {
     if (auto moment = world_.look(); !moment.poses.empty()) view_.update(std::move(moment));
 }
-
-void StudyWorldPane::paint(juce::Graphics& g) { drawPanel(g, *this); }
 
 void StudyWorldPane::resized() {
     view_.setBounds(getLocalBounds().reduced(3));

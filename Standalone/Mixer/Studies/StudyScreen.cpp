@@ -5,12 +5,7 @@
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Mixer/Widgets/Parts.h"
-#include "Scene/LayoutFile.h"
 #include "Scene/SceneEdits.h"
-#include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace physvib {
 namespace {
@@ -37,6 +32,10 @@ std::string jobFault(MixerModel& model, const Protocol& protocol, const Conditio
     const auto world = feltWorld(std::get<WrittenCall>(job), protocol.folder);
     return world ? StudyWorld::refusal(model, world.value) : world.error;
 }
+
+constexpr int maxUnlike = 3; // plays of a part at another level than planned; then its row is marked
+
+constexpr int studyBarHeight = 56, partWidth = 300, partHeight = 84, choiceHeight = 216;
 
 } // namespace
 
@@ -122,17 +121,10 @@ StudyScreen::StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> stu
     answers_.onKey = [this](const juce::KeyPress& key) { return keyPressed(key); };
     answers_.setStandsAlone(answersElsewhere);
     addAll(*this, {&next_, &silence_, leave_.get()});
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&pane_, &pause_, &comment_})
-        addChildComponent(c);
+    addHidden(*this, {&pane_, &pause_, &comment_});
     if (!answersElsewhere) addChildComponent(answers_);
     prepareControls(*this);
     showNext();
-}
-
-StudyScreen::~StudyScreen() = default;
-
-void StudyScreen::parentSizeChanged() {
-    if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
 }
 
 void StudyScreen::showNext() {
@@ -153,8 +145,8 @@ void StudyScreen::showPage(Page page) {
     answers_.show(nullptr);
     parts_.clear();
     progress_.reset();
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&pane_, &pause_, &answers_})
-        c->setVisible(c == &answers_ && answers_.standsAlone());
+    physvib::setVisible({&pane_, &pause_}, false);
+    answers_.setVisible(answers_.standsAlone());
     comment_.setVisible(page == Page::comment);
     next_.setVisible(true);
     resized();
@@ -196,9 +188,8 @@ void StudyScreen::showTrial() {
     pause_.setVisible(hasHands());
     showParts();
     prepareControls(*this);
-    for (juce::Component* whole :
-         {static_cast<juce::Component*>(this), static_cast<juce::Component*>(&answers_)})
-        whole->setHasFocusOutline(false); // a frame around all of it would not show a target
+    setHasFocusOutline(false); // a frame around all of it would not show a target
+    answers_.setHasFocusOutline(false);
     resized();
     refresh();
     repaint();
@@ -231,8 +222,6 @@ void StudyScreen::fail(const std::string& reason) {
     pane_.world().end();
     showPage(Page::fault);
 }
-
-void StudyScreen::note(std::string_view event) { model_.reportFault(study_->note(event)); }
 
 void StudyScreen::closeRequested() {
     if (page_ == Page::comment) return submitComment();
@@ -296,16 +285,6 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
     return true; // no key reaches the mixer below
 }
 
-namespace {
-
-constexpr int maxUnlike = 3; // plays of a part at another level than planned; then its row is marked
-
-} // namespace
-
-bool StudyScreen::isExploring() const { return experiment().session().answer() == AnswerKind::wish; }
-
-bool StudyScreen::canAnswer() const { return progress_->canAnswer() && !isFeeling(); }
-
 /// Time for an answer runs from where one is accepted; while nothing can be felt it stands still.
 bool StudyScreen::isTimeOver() {
     const double passed = 1e-3 * (nowMs() - std::exchange(updatedMs_, nowMs()));
@@ -321,8 +300,6 @@ bool StudyScreen::isTimeOver() {
 
 /// An interactive world has the whole screen until the participant leaves it to answer.
 bool StudyScreen::isAnswerSeen() const { return answers_.standsAlone() || !hasHands() || canAnswer(); }
-
-double StudyScreen::restLeft() const { return std::max(0.0, 1e-3 * (restEndsMs_ - nowMs())); }
 
 /// The part after the last played one; at first, the first.
 std::size_t StudyScreen::nextPart() const {
@@ -517,20 +494,10 @@ void StudyScreen::updateTrial() {
     answers_.setConfirm(true, mayConfirm, say_(worldSet() != nullptr ? "OK" : "Next"));
     answers_.setQuestion(headline());
     updateParts();
-    updatePause();
-}
-
-void StudyScreen::updatePause() {
     pause_.setEnabled(hasHands() && pane_.world().isMoving() && progress_->canAnswer());
     pause_.setWords(say_("PAUSE"),
                     say_(pause_.isEnabled() ? "space bar: answer" : "when each was felt for long enough"));
 }
-
-namespace {
-
-constexpr int studyBarHeight = 56, partWidth = 300, partHeight = 84, choiceHeight = 216;
-
-} // namespace
 
 void StudyScreen::refresh() {
     const bool hasFocus = hasKeyboardFocus(true) || (elsewhere_ && elsewhere_->hasKeyboardFocus(true));
@@ -674,27 +641,22 @@ juce::String StudyScreen::progressWords() const {
 
 void StudyScreen::paint(juce::Graphics& g) {
     g.fillAll(shade(*this, Shade::ground));
-    g.setColour(shade(*this, Shade::muted));
-    g.setFont(text::font(text::medium));
+    ink(g, *this, Shade::muted, text::medium);
     g.drawText(progressWords(), headArea_, juce::Justification::centredLeft, true);
     if (!experiment().isDone() && experiment().sessionTrials() > 0) {
         const auto bar =
             juce::Rectangle<int>{pageInset, studyBarHeight - 2, getWidth() - 2 * pageInset, 4}.toFloat();
-        g.setColour(shade(*this, Shade::line));
-        g.fillRoundedRectangle(bar, 2.0f);
-        g.setColour(shade(*this, Shade::accent));
-        g.fillRoundedRectangle(
-            bar.withWidth(bar.getWidth() * static_cast<float>(experiment().trial().number - 1) /
-                          static_cast<float>(experiment().sessionTrials())),
-            2.0f);
+        fillRound(g, *this, Shade::line, bar, 2.0f);
+        fillRound(g, *this, Shade::accent,
+                  bar.withWidth(bar.getWidth() * static_cast<float>(experiment().trial().number - 1) /
+                                static_cast<float>(experiment().sessionTrials())),
+                  2.0f);
     }
-    g.setColour(shade(*this, Shade::text));
-    g.setFont(text::font(page_ == Page::trial ? text::large : 30.0f, juce::Font::bold));
+    ink(g, *this, Shade::text, page_ == Page::trial ? text::large : 30.0f, juce::Font::bold);
     g.drawFittedText(headline(), questionArea_, juce::Justification::centred, 2, 1.0f);
     const bool isTrouble =
         page_ == Page::trial && (model_.isSilent() || isWaiting() || isLost_ || wrong().isNotEmpty());
-    g.setColour(shade(*this, isTrouble ? Shade::limit : Shade::muted));
-    g.setFont(text::font(page_ == Page::trial ? text::medium : text::large));
+    ink(g, *this, isTrouble ? Shade::limit : Shade::muted, page_ == Page::trial ? text::medium : text::large);
     g.drawFittedText(body(), bodyArea_, juce::Justification::centred, page_ == Page::trial ? 2 : 5, 1.0f);
     if (page_ == Page::pause) drawMaterials(g);
 }

@@ -3,9 +3,6 @@
 #include "Mixer/Widgets/Cards.h"
 #include "Io/Text/QrCode.h"
 #include "Scene/SceneValidation.h"
-#include <algorithm>
-#include <cmath>
-#include <utility>
 
 namespace physvib {
 namespace {
@@ -22,6 +19,8 @@ void closeThen(const From& from, std::function<void()> then) {
         if (then) then();
     });
 }
+
+constexpr int looksPerSecond = 15;
 
 } // namespace
 
@@ -114,10 +113,6 @@ void Card::setAnswers(std::vector<juce::TextButton*> answers) {
     }
 }
 
-int Card::answersHigh() const {
-    return (static_cast<int>(answers_.size()) + perRow() - 1) / perRow() * (rowHigh + gap) - gap;
-}
-
 void Card::fit() {
     prepareControls(*this);
     const auto middle = getBounds().getCentre();
@@ -139,9 +134,9 @@ void Card::resized() {
     const int width = (area.getWidth() - (perRow() - 1) * gap) / perRow();
     const auto rows = area.removeFromBottom(answersHigh());
     for (int k = 0; k < static_cast<int>(answers_.size()); ++k)
-        answers_[static_cast<std::size_t>(k)]->setBounds(
-            rows.getRight() - width - k % perRow() * (width + gap),
-            rows.getY() + k / perRow() * (rowHigh + gap), width, rowHigh);
+        nth(answers_, k)
+            ->setBounds(rows.getRight() - width - k % perRow() * (width + gap),
+                        rows.getY() + k / perRow() * (rowHigh + gap), width, rowHigh);
     area.removeFromBottom(gap);
     place(area.removeFromBottom(contentHigh()));
     words_.setBounds(area.withTrimmedTop(4));
@@ -178,10 +173,6 @@ FileCard::FileCard(const Choice& choice)
     enter(choice.folder);
 }
 
-juce::String FileCard::acceptWords() const {
-    return isFolder() ? "Take this folder" : choice_.isSaving ? "Save" : "Open";
-}
-
 bool FileCard::hasEnding(const juce::File& file) const {
     return !isFolder() && (file.hasFileExtension(choice_.ending) ||
                            std::ranges::any_of(choice_.endings, [&](const juce::String& ending) {
@@ -207,11 +198,6 @@ void FileCard::enter(const juce::File& folder) {
               Shade::muted);
     rows_ = std::max(rows_, std::clamp(entries_.size(), fewRows, mostRows));
     fit();
-}
-
-void FileCard::selectedRowsChanged(int row) {
-    if (juce::isPositiveAndBelow(row, entries_.size()) && !entries_[row].isDirectory())
-        setName(entries_[row].getFileNameWithoutExtension());
 }
 
 void FileCard::accept() {
@@ -260,24 +246,17 @@ bool FileCard::keyPressed(const juce::KeyPress& key) {
 void FileCard::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
     if (row >= entries_.size()) return;
     auto area = juce::Rectangle<int>{width, height};
-    if (isSelected) {
-        g.setColour(shade(*this, Shade::accent).withAlpha(0.22f));
-        g.fillRect(area);
-    }
+    if (isSelected) drawChosenRow(g, *this, width, height, 0.22f);
     const auto& entry = entries_[row];
     const bool isFolder = entry.isDirectory();
     area.reduce(12, 0);
-    g.setFont(text::font(text::small));
-    g.setColour(shade(*this, Shade::muted));
+    ink(g, *this, Shade::muted, text::small);
     g.drawText(isFolder ? juce::String{"folder"}
                         : entry.getLastModificationTime().formatted("%Y-%m-%d %H:%M"),
                area.removeFromRight(120), juce::Justification::centredRight, true);
-    g.setFont(text::font(text::medium, isFolder ? juce::Font::bold : juce::Font::plain));
-    g.setColour(shade(*this, Shade::text));
+    ink(g, *this, Shade::text, text::medium, isFolder ? juce::Font::bold : juce::Font::plain);
     g.drawText(entry.getFileName(), area, juce::Justification::centredLeft, true);
 }
-
-int FileCard::contentHigh() const { return 8 + rows_ * list_.getRowHeight() + 3 * (rowHeight + gap); }
 
 void FileCard::place(juce::Rectangle<int> area) {
     auto row = area.removeFromTop(rowHeight);
@@ -304,7 +283,7 @@ public:
         for (int k = 0; k < field.choices.size(); ++k) {
             juce::PopupMenu::Item item{field.choices[k]};
             item.itemID = k + 1;
-            if (!dots.empty()) item.image = dotOf(dots[static_cast<std::size_t>(k)]);
+            if (!dots.empty()) item.image = dotOf(nth(dots, k));
             list.getRootMenu()->addItem(std::move(item));
         }
         list.setText(field.value, juce::dontSendNotification);
@@ -313,13 +292,12 @@ public:
     juce::Component& control() { return list.getNumItems() > 0 ? static_cast<juce::Component&>(list) : text; }
     juce::String value() const { return list.getNumItems() > 0 ? list.getText() : text.getText().trim(); }
     void paint(juce::Graphics& g) override {
-        g.setColour(shade(*this, Shade::muted));
-        g.setFont(physvib::text::font(physvib::text::small));
+        ink(g, *this, Shade::muted, physvib::text::small);
         g.drawText(name, getLocalBounds().withWidth(nameWidth), juce::Justification::centredLeft, true);
     }
     void paintOverChildren(juce::Graphics& g) override {
         if (const int k = list.getSelectedItemIndex(); k >= 0 && k < static_cast<int>(dots.size()))
-            dotOf(dots[static_cast<std::size_t>(k)])
+            dotOf(nth(dots, k))
                 ->drawAt(g, static_cast<float>(getWidth()) - 56.0f,
                          0.5f * static_cast<float>(getHeight() - dot), 1.0f);
     }
@@ -424,8 +402,7 @@ void QuestionCard::paint(juce::Graphics& g) {
     const auto room = juce::Rectangle<int>{edgeX, edgeY, aside().x, aside().y};
     const auto at = picture_.getBounds().withCentre(room.getCentre());
     if (picture_.isValid()) return g.drawImageAt(picture_, at.getX(), at.getY());
-    g.setColour(shade(*this, Shade::muted));
-    g.setFont(text::font(text::medium));
+    ink(g, *this, Shade::muted, text::medium);
     g.drawFittedText(without_, room, juce::Justification::centred, 4, 1.0f);
 }
 
@@ -435,12 +412,6 @@ void QuestionCard::place(juce::Rectangle<int> content) {
         content.removeFromTop(gap);
     }
 }
-
-namespace {
-
-constexpr int looksPerSecond = 15;
-
-} // namespace
 
 RenderTask::RenderTask(const juce::File& file, Work work, Done done)
     : juce::Thread{"PhysVib render"}
@@ -484,26 +455,21 @@ void RenderTask::timerCallback() {
 void RenderTask::paint(juce::Graphics& g) {
     drawCard(g, *this);
     auto area = getLocalBounds().reduced(12, 8).withTrimmedRight(92);
-    g.setColour(shade(*this, Shade::text));
-    g.setFont(text::font(text::medium));
+    ink(g, *this, Shade::text, text::medium);
     const double share = juce::jlimit(0.0, 1.0, share_.load());
     g.drawText(file_.getFileName() + "  " + juce::String{juce::roundToInt(100.0 * share)} + " %",
                area.removeFromTop(24), juce::Justification::centredLeft, true);
     const auto bar = area.removeFromBottom(8).toFloat();
-    g.setColour(shade(*this, Shade::line));
-    g.fillRoundedRectangle(bar, 4.0f);
-    g.setColour(shade(*this, Shade::accent));
-    g.fillRoundedRectangle(bar.withWidth(bar.getWidth() * static_cast<float>(share)), 4.0f);
+    fillRound(g, *this, Shade::line, bar, 4.0f);
+    fillRound(g, *this, Shade::accent, bar.withWidth(bar.getWidth() * static_cast<float>(share)), 4.0f);
 }
-
-void RenderTask::resized() { cancel_.setBounds(getLocalBounds().reduced(12, 13).removeFromRight(84)); }
 
 void askMaterial(juce::Component& from, MixerModel& model, int material, bool isCopy,
                  std::function<void(int material)> made) {
     static const juce::StringArray colours{"by its place", "red",  "amber", "light blue", "mauve",
                                            "tan",          "blue", "brown", "olive"};
     auto materials = model.world().drawing().drawn().materials;
-    if (isCopy) materials.push_back(Material{materials[static_cast<std::size_t>(material)]});
+    if (isCopy) materials.push_back(Material{nth(materials, material)});
     const auto index = isCopy ? materials.size() - 1 : static_cast<std::size_t>(material);
     const Material asked = materials[index];
     std::vector<juce::Colour> dots;
@@ -520,7 +486,7 @@ void askMaterial(juce::Component& from, MixerModel& model, int material, bool is
             Scene scene = model.world().drawing().drawn();
             auto& all = scene.materials;
             const auto at = static_cast<std::size_t>(isCopy ? std::ssize(all) : material);
-            if (isCopy) all.push_back(Material{all[static_cast<std::size_t>(material)]});
+            if (isCopy) all.push_back(Material{nth(all, material)});
             Material& own = all[at];
             if (isCopy && own.frequencyHz <= 0.0) own.frequencyHz = usualHz, own.decayPerSecond = usualDecay;
             own.name = values[0].toStdString(), own.colour = colours.indexOf(values[1]);
@@ -541,7 +507,7 @@ void showMaterialMenu(juce::Component& from, MixerModel& model, int material, st
                       std::function<void(bool isRecording)> open) {
     const auto& materials = model.world().drawing().drawn().materials;
     if (material < 0 || material >= static_cast<int>(materials.size())) return;
-    const Material& asked = materials[static_cast<std::size_t>(material)];
+    const Material& asked = nth(materials, material);
     const auto ask = [safe = From{&from}, &model, material, made = std::move(made)](bool isCopy) {
         return [safe, &model, material, made, isCopy] {
             if (safe != nullptr) askMaterial(*safe, model, material, isCopy, made);

@@ -2,13 +2,8 @@
 // Cards over the window: a choice of files, a question, the progress of a file that is made; how panels ask
 // by them, and what keeps the keyboard and the mouse from what is behind.
 #pragma once
-#include "Host/Views/Look.h"
 #include "Mixer/Widgets/Parts.h"
 #include <atomic>
-#include <functional>
-#include <juce_gui_basics/juce_gui_basics.h>
-#include <memory>
-#include <vector>
 
 namespace physvib {
 
@@ -32,7 +27,9 @@ protected:
     virtual juce::Point<int> aside() const { return {}; } ///< what stands beside all of it
 
 private:
-    int answersHigh() const;
+    int answersHigh() const {
+        return (static_cast<int>(answers_.size()) + perRow() - 1) / perRow() * (rowHigh + gap) - gap;
+    }
     int perRow() const { return answers_.size() == 4 ? 4 : 3; } // none hangs below alone
     const int width_;
     juce::Label title_, words_;
@@ -71,17 +68,22 @@ public:
 
 private:
     static constexpr int wide = 640, fewRows = 4, mostRows = 10; // a longer list scrolls
-    int contentHigh() const override;
+    int contentHigh() const override { return 8 + rows_ * list_.getRowHeight() + 3 * (rowHeight + gap); }
     void place(juce::Rectangle<int> content) override;
     int getNumRows() override { return entries_.size(); }
     void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
-    void selectedRowsChanged(int row) override;
+    void selectedRowsChanged(int row) override {
+        if (juce::isPositiveAndBelow(row, entries_.size()) && !entries_[row].isDirectory())
+            setName(entries_[row].getFileNameWithoutExtension());
+    }
     void listBoxItemDoubleClicked(int, const juce::MouseEvent&) override { accept(); }
     void returnKeyPressed(int) override { accept(); }
     juce::String getNameForRow(int row) override { return entries_[row].getFileName(); }
     void showFault(const juce::String& words, Shade which);
     bool isFolder() const { return choice_.ending.isEmpty(); }
-    juce::String acceptWords() const;
+    juce::String acceptWords() const {
+        return isFolder() ? "Take this folder" : choice_.isSaving ? "Save" : "Open";
+    }
     bool hasEnding(const juce::File& file) const;
 
     const Choice choice_;
@@ -172,7 +174,7 @@ public:
 
     const juce::File& file() const noexcept { return file_; }
     void paint(juce::Graphics& g) override;
-    void resized() override;
+    void resized() override { cancel_.setBounds(getLocalBounds().reduced(12, 13).removeFromRight(84)); }
 
     static constexpr int wide = 340, high = 58;
 
@@ -198,8 +200,7 @@ public:
     virtual void setScreen(juce::Component* screen) = 0;
 };
 
-/// A link as a QR code, dark on white in any look, of at most mostPicture; null if it is too long. Any
-/// thread.
+/// A link as a QR code, dark on white in any look, of at most mostPicture; null: it is too long. Any thread.
 juce::Image qrPicture(const std::string& link);
 
 /// All for the message thread. `use` and `cancelled` are called later, after the card has gone, and not if

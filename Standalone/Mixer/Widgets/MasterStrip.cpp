@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls and picture of the total output.
-#include "Mixer/Widgets/MasterStrip.h"
 #include "Mixer/Widgets/Parts.h"
-#include <algorithm>
 
 namespace physvib {
 
@@ -52,12 +50,10 @@ double MasterStrip::mostG() const {
 void MasterStrip::paintFlat(juce::Graphics& g) const {
     const bool isHeld = limiter_.isHolding();
     auto words = getLocalBounds().withRight(fader_.getX());
-    g.setColour(shade(*this, Shade::text));
-    g.setFont(text::font(text::small, juce::Font::bold));
+    ink(g, *this, Shade::text, text::small, juce::Font::bold);
     g.drawText("Master " + number(model_.mix().levelDb, 1) + " dB", words.removeFromTop(getHeight() / 2),
                juce::Justification::centredLeft, false);
-    g.setColour(shade(*this, isHeld ? Shade::limit : remark_.isNotEmpty() ? Shade::now : Shade::muted));
-    g.setFont(text::font(text::small));
+    ink(g, *this, isHeld ? Shade::limit : remark_.isNotEmpty() ? Shade::now : Shade::muted, text::small);
     g.drawText(isHeld                 ? limiterWords()
                : remark_.isNotEmpty() ? remark_
                                       : "at most " + inG(mostG()) + " g",
@@ -67,20 +63,17 @@ void MasterStrip::paintFlat(juce::Graphics& g) const {
 void MasterStrip::paint(juce::Graphics& g) {
     if (isFlat_) return paintFlat(g);
     drawScale(g, fader_, getWidth());
-    g.setColour(shade(*this, Shade::text));
-    g.setFont(text::font(text::medium, juce::Font::bold));
+    ink(g, *this, Shade::text, text::medium, juce::Font::bold);
     g.drawText("Master", getLocalBounds().withTrimmedTop(4).removeFromTop(20), juce::Justification::centred,
                false);
-    g.setFont(text::font(text::small));
-    g.setColour(shade(*this, Shade::muted));
+    ink(g, *this, Shade::muted, text::small);
     g.drawText(number(model_.mix().levelDb, 1) + " dB", getLocalBounds().withTrimmedTop(24).removeFromTop(16),
                juce::Justification::centred, false);
     g.setColour(shade(*this, limiter_.isHolding() ? Shade::limit : Shade::muted));
     g.drawText(limiterWords(), limiterText_, juce::Justification::centred, false);
     g.setColour(shade(*this, Shade::muted));
     g.drawText("at most", ceilingName_, juce::Justification::centred, false);
-    g.setColour(shade(*this, Shade::text));
-    g.setFont(text::font(text::small, juce::Font::bold));
+    ink(g, *this, Shade::text, text::small, juce::Font::bold);
     g.drawText(inG(mostG()) + " g", ceiling_, juce::Justification::centred, false);
 }
 

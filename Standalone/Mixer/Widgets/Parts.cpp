@@ -4,15 +4,12 @@
 #include "Core/Units.h"
 #include "Host/Views/WorldView.h"
 #include "Measure/Spectrum.h"
-#include "Mixer/Model/MixerSignals.h"
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace physvib {
 namespace {
 
-juce::Path pathOf(Sign sign) {
+juce::Path outlineOf(Sign sign) {
     juce::Path p;
     switch (sign) {
     case Sign::play: p.addTriangle(-4.0f, -6.0f, -4.0f, 6.0f, 6.0f, 0.0f); break;
@@ -63,6 +60,25 @@ juce::Path pathOf(Sign sign) {
     return p;
 }
 
+/// Hann window (Oppenheim and Schafer 7.2); its sum is half its length.
+const std::vector<double>& hann() {
+    static const std::vector<double> weights = [] {
+        std::vector<double> w(SpectrumTrace::window);
+        for (std::size_t i = 0; i < w.size(); ++i)
+            w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
+                                        static_cast<double>(w.size()));
+        return w;
+    }();
+    return weights;
+}
+
+constexpr int barRoom = 12;                 // of the scroll bar, and beside it
+constexpr int widestRest = 60, maxCut = 14; // margin beside a name, and what a narrow panel takes from it
+
+int widthOf(const juce::String& name) {
+    return text::pixels(text::font(text::medium, juce::Font::bold), name) + 6;
+}
+
 } // namespace
 
 SignButton::SignButton(Sign sign, const juce::String& name)
@@ -85,7 +101,7 @@ void SignButton::paintButton(juce::Graphics& g, bool isOver, bool isDown) {
                              : getToggleState() ? Shade::well
                              : isQuiet          ? Shade::accent
                                                 : Shade::text));
-    g.fillPath(pathOf(sign_), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
+    g.fillPath(outlineOf(sign_), juce::AffineTransform::translation(getLocalBounds().toFloat().getCentre()));
 }
 
 void TwoLines::set(const juce::String& first, const juce::String& second, Shade firstShade) {
@@ -113,8 +129,7 @@ void TwoLines::paint(juce::Graphics& g) {
 }
 
 void drawPanel(juce::Graphics& g, const juce::Component& component) {
-    g.setColour(shade(component, Shade::panel));
-    g.fillRoundedRectangle(component.getLocalBounds().toFloat(), 8.0f);
+    fillRound(g, component, Shade::panel, component.getLocalBounds().toFloat(), 8.0f);
 }
 
 void drawCard(juce::Graphics& g, const juce::Component& component) {
@@ -125,10 +140,11 @@ void drawCard(juce::Graphics& g, const juce::Component& component) {
     g.drawRoundedRectangle(area.reduced(0.75f), 12.0f, 1.5f);
 }
 
-std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name) {
+std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name,
+                                              std::function<void()> onClick) {
     auto button = std::make_unique<juce::TextButton>(words);
-    button->setTitle(name);
-    button->setTooltip(name);
+    describe(*button, name, name);
+    button->onClick = std::move(onClick);
     button->getProperties().set(quietProperty, true);
     return button;
 }
@@ -164,6 +180,12 @@ Caption::Caption(const juce::String& words, Shade tone)
 
 void addAll(juce::Component& parent, std::initializer_list<juce::Component*> children) {
     for (auto* child : children) parent.addAndMakeVisible(child);
+}
+void addHidden(juce::Component& parent, std::initializer_list<juce::Component*> children) {
+    for (auto* child : children) parent.addChildComponent(child);
+}
+void setVisible(std::initializer_list<juce::Component*> components, bool areVisible) {
+    for (auto* component : components) component->setVisible(areVisible);
 }
 
 AttachButton::AttachButton(MixerModel& model, const juce::String& title, const juce::String& tooltip)
@@ -213,13 +235,9 @@ void Divider::mouseDrag(const juce::MouseEvent& e) {
     onMove(juce::roundToInt(isUpright_ ? from.x : from.y));
 }
 
-void Divider::mouseDoubleClick(const juce::MouseEvent&) { onReset(); }
-
 double FrequencyAxis::shareOf(double hz) {
     return std::log(std::max(hz, 1e-3) / lowHz) / std::log(highHz / lowHz);
 }
-double FrequencyAxis::hzAt(double share) { return lowHz * std::pow(highHz / lowHz, share); }
-
 SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, double fullScale) {
     SpectrumLevels levels;
     const double half = 0.5 / (FrequencyAxis::points - 1),
@@ -238,7 +256,7 @@ SpectrumLevels spectrumLevels(std::span<const double> magnitudes, double binHz, 
         for (auto i = static_cast<std::size_t>(std::ceil(from)); i <= static_cast<std::size_t>(to); ++i)
             highest = std::max(highest, magnitudes[i]);
         const double db = toDecibels(std::max(highest / fullScale, 1e-9));
-        levels[static_cast<std::size_t>(k)] = std::max(FrequencyAxis::floorDb, static_cast<float>(db));
+        nth(levels, k) = std::max(FrequencyAxis::floorDb, static_cast<float>(db));
     }
     return levels;
 }
@@ -284,22 +302,6 @@ void drawSpectrum(juce::Graphics& g, std::span<const float, FrequencyAxis::point
     g.strokePath(curve, juce::PathStrokeType{1.5f});
 }
 
-namespace {
-
-/// Hann window (Oppenheim and Schafer 7.2); its sum is half its length.
-const std::vector<double>& hann() {
-    static const std::vector<double> weights = [] {
-        std::vector<double> w(SpectrumTrace::window);
-        for (std::size_t i = 0; i < w.size(); ++i)
-            w[i] = 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * static_cast<double>(i) /
-                                        static_cast<double>(w.size()));
-        return w;
-    }();
-    return weights;
-}
-
-} // namespace
-
 SpectrumLevels levelsOf(const SpectrumTrace& trace, int channel) {
     auto x = trace.recent(channel);
     if (x.empty()) {
@@ -314,24 +316,12 @@ SpectrumLevels levelsOf(const SpectrumTrace& trace, int channel) {
                           0.25 * SpectrumTrace::window);
 }
 
-namespace {
-
-constexpr int barRoom = 12;                 // of the scroll bar, and beside it
-constexpr int widestRest = 60, maxCut = 14; // margin beside a name, and what a narrow panel takes from it
-
-int widthOf(const juce::String& name) {
-    return text::pixels(text::font(text::medium, juce::Font::bold), name) + 6;
-}
-
-} // namespace
-
 class TabPanel::Name final : public juce::Button {
 public:
     explicit Name(const juce::String& name)
         : juce::Button{name} {
         setTitle(name);
-        setRadioGroupId(1); // choose() alone toggles it: JUCE would click the one before, which folds the
-                            // panel
+        setRadioGroupId(1); // choose() alone toggles it: JUCE would click the one before, and fold the panel
     }
     void paintButton(juce::Graphics& g, bool isOver, bool) override {
         const bool isChosen = isOpen && getToggleState();
@@ -341,8 +331,8 @@ public:
                                .translated(static_cast<float>(getWidth()), 0.0f));
             area = {getHeight(), getWidth()};
         }
-        g.setColour(shade(*this, isChosen || isOver ? Shade::text : Shade::muted));
-        g.setFont(text::font(text::medium, isChosen ? juce::Font::bold : juce::Font::plain));
+        ink(g, *this, isChosen || isOver ? Shade::text : Shade::muted, text::medium,
+            isChosen ? juce::Font::bold : juce::Font::plain);
         g.drawText(getName(), area.withTrimmedBottom(isOpen ? 4 : 0), juce::Justification::centred, false);
         g.setColour(isChosen && !hasKeyboardFocus(false) ? shade(*this, Shade::accent)
                                                          : juce::Colours::transparentBlack);
@@ -399,18 +389,12 @@ juce::StringArray TabPanel::names() const {
     return all;
 }
 
-void TabPanel::mixChanged() {
-    for (auto& page : pages_) page.tab->mixChanged();
-}
-
 void TabPanel::refresh(const MixerMoment& moment) {
     if (chosen_ >= pages_.size() || fold_ != Fold::none) return;
     const auto& page = pages_[chosen_];
     page.tab->refresh(moment);
     if (page.tab->minHeight(page.view->getWidth()) != page.least) resized(); // it says more, or less
 }
-
-void TabPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
 
 void TabPanel::resized() {
     if (pages_.empty()) return;

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Widgets that all panels of the mixer share: buttons, captions, dividers, the tilt knob, tabs, and the axis
-// of spectra.
+// Widgets that all panels of the mixer share: buttons, captions, dividers, the tilt knob, tabs, the axis of
+// spectra, and the total output.
 #pragma once
 #include "Host/Views/Look.h"
+#include "Host/Views/StripParts.h"
 #include "Mixer/Model/MixerModel.h"
-#include <array>
-#include <functional>
 #include <juce_gui_basics/juce_gui_basics.h>
-#include <span>
-#include <vector>
 
 namespace physvib {
 
@@ -29,10 +26,8 @@ private:
 class TwoLines final : public ReadOut, public juce::SettableTooltipClient {
 public:
     explicit TwoLines(const juce::String& title) { setTitle(title); }
-    std::function<void()> onClick;
-    void mouseUp(const juce::MouseEvent&) override {
-        if (onClick) onClick();
-    }
+    std::function<void()> onClick = [] {};
+    void mouseUp(const juce::MouseEvent&) override { onClick(); }
     void set(const juce::String& first, const juce::String& second, Shade firstShade = Shade::text);
     void paint(juce::Graphics& g) override;
 
@@ -47,8 +42,28 @@ void drawPanel(juce::Graphics& g, const juce::Component& component);
 void drawCard(juce::Graphics& g, const juce::Component& component);
 constexpr int panelInset = 14, gap = 12, rowHeight = 30;
 
+/// Colour and font of what is written next.
+inline void ink(juce::Graphics& g, const juce::Component& c, Shade which, float height,
+                int style = juce::Font::plain) {
+    g.setColour(shade(c, which));
+    g.setFont(text::font(height, style));
+}
+inline void fillRound(juce::Graphics& g, const juce::Component& c, Shade which, juce::Rectangle<float> area,
+                      float corner, float alpha = 1.0f) {
+    g.setColour(shade(c, which).withMultipliedAlpha(alpha));
+    g.fillRoundedRectangle(area, corner);
+}
+
+/// The background of a row that is chosen.
+inline void drawChosenRow(juce::Graphics& g, const juce::Component& c, int width, int height,
+                          float alpha = 0.16f) {
+    g.setColour(shade(c, Shade::accent).withAlpha(alpha));
+    g.fillRect(0, 0, width, height);
+}
+
 /// A button that looks like a text link.
-std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name);
+std::unique_ptr<juce::TextButton> quietButton(const juce::String& words, const juce::String& name,
+                                              std::function<void()> onClick = {});
 
 /// Calls `use` with every new value of the slider. `continuesEdit` is true for all but the first value of a
 /// drag.
@@ -70,8 +85,10 @@ private:
     Shade tone_;
 };
 
-/// Shows these as children.
+/// Shows these as children; addHidden(): they are shown later.
 void addAll(juce::Component& parent, std::initializer_list<juce::Component*> children);
+void addHidden(juce::Component& parent, std::initializer_list<juce::Component*> children);
+void setVisible(std::initializer_list<juce::Component*> components, bool areVisible);
 
 /// Sets a title, for screen readers, and a tooltip.
 template <class Control>
@@ -114,7 +131,7 @@ public:
     void mouseEnter(const juce::MouseEvent&) override { repaint(); }
     void mouseExit(const juce::MouseEvent&) override { repaint(); }
     void mouseDrag(const juce::MouseEvent& e) override;
-    void mouseDoubleClick(const juce::MouseEvent&) override;
+    void mouseDoubleClick(const juce::MouseEvent&) override { onReset(); }
 
 private:
     const bool isUpright_;
@@ -168,7 +185,7 @@ struct FrequencyAxis {
 
     /// 0 to 1 from the left; outside that for frequencies out of range.
     static double shareOf(double hz);
-    static double hzAt(double share);
+    static double hzAt(double share) { return lowHz * std::pow(highHz / lowHz, share); }
     static double hzOf(int point) { return hzAt(static_cast<double>(point) / (points - 1)); }
 };
 
@@ -220,9 +237,11 @@ public:
             if (auto* const tab = dynamic_cast<T*>(page.tab.get())) return tab;
         return nullptr;
     }
-    void mixChanged();
+    void mixChanged() {
+        for (auto& page : pages_) page.tab->mixChanged();
+    }
     void refresh(const MixerMoment& moment);
-    void paint(juce::Graphics& g) override;
+    void paint(juce::Graphics& g) override { drawPanel(g, *this); }
     void resized() override;
 
 private:
@@ -236,6 +255,43 @@ private:
     std::vector<Page> pages_;
     std::size_t chosen_ = 0;
     Fold fold_ = Fold::none;
+};
+
+/// Felt level in g of a strip's peak after the master level. M.
+double gOf(const MixerModel& model, std::size_t strip, float peak);
+/// The most that can be felt of a strip, by its ceiling, in g. M.
+double maxG(const MixerModel& model, std::size_t strip);
+
+/// Strip of the total output: level, limiter, ceiling.
+class MasterStrip final : public juce::Component {
+public:
+    static constexpr int width = 90, flatWords = 112;
+    static constexpr int metersTop = 48; ///< of a strip, too
+
+    /// `isFlat`: in one row without a meter, for where there are no strips.
+    explicit MasterStrip(MixerModel& model, bool isFlat = false);
+    /// A warning in place of the most that can come, in a row; empty: none. Before mixChanged().
+    void setRemark(const juce::String& remark) { remark_ = remark; }
+    const juce::String& remark() const noexcept { return remark_; }
+    void mixChanged();
+    void refresh(const MixerMoment& moment);
+    void paint(juce::Graphics& g) override;
+    void resized() override;
+
+private:
+    void paintFlat(juce::Graphics& g) const;
+    juce::String limiterWords() const {
+        return (limiter_.isGuard() ? "guard " : "limiter ") + limiter_.decibels();
+    }
+    double mostG() const;
+
+    MixerModel& model_;
+    const bool isFlat_;
+    juce::String remark_;
+    PeakMeter meter_{"Master level"};
+    LimiterBar limiter_;
+    Fader fader_;
+    juce::Rectangle<int> limiterText_, ceilingName_, ceiling_;
 };
 
 } // namespace physvib

@@ -2,13 +2,8 @@
 // First-start assistant: device choice and test pulses. Levels start low, because people may be holding the
 // actuators.
 #include "Mixer/Window/FirstStart.h"
-#include "Core/Limits.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
-#include "Mixer/Model/MixerDevice.h"
-#include <algorithm>
-#include <optional>
-#include <utility>
 
 namespace physvib {
 namespace {
@@ -17,10 +12,6 @@ constexpr int mostRows = 6, rowGap = 5, fieldHigh = 200;
 constexpr int lookMs = 100,
               maxLooks = 50; // time for a sink to become ready: greeting and clock of a board need half a
                              // second, Bluetooth one
-
-juce::String outputsText(int outputs) {
-    return juce::String{outputs} + (outputs == 1 ? " output" : " outputs");
-}
 
 /// Worn on the ears, by the name that the system gives it.
 bool isForEars(const std::string& device) {
@@ -40,14 +31,12 @@ public:
     void paintButton(juce::Graphics& g, bool isOver, bool) override {
         auto area = getLocalBounds();
         const bool isChosen = getToggleState();
-        g.setColour(shade(*this, Shade::accent).withAlpha(isChosen ? 0.2f : isOver ? 0.08f : 0.0f));
-        g.fillRoundedRectangle(area.toFloat(), 6.0f);
+        fillRound(g, *this, Shade::accent, area.toFloat(), 6.0f, isChosen ? 0.2f : isOver ? 0.08f : 0.0f);
         const auto ring = area.removeFromLeft(40).toFloat().withSizeKeepingCentre(14.0f, 14.0f);
         g.setColour(shade(*this, isChosen ? Shade::accent : Shade::muted));
         g.drawEllipse(ring, 1.5f);
         if (isChosen) g.fillEllipse(ring.reduced(3.5f));
-        g.setColour(shade(*this, Shade::text));
-        g.setFont(text::font(text::medium));
+        ink(g, *this, Shade::text, text::medium);
         g.drawText(getName(), area, juce::Justification::centredLeft, true);
     }
 };
@@ -68,7 +57,7 @@ std::vector<FeltChoice> feltChoices(const AudioDrivers& drivers, const std::vect
     for (const auto& device : devices) {
         const int outputs = ownOutputs(device);
         if (device.type == noDeviceType || outputs < 1) continue; // nothing could be felt or heard there
-        FeltChoice choice{utf8(device.type + ":" + device.name) + ", " + outputsText(outputs) +
+        FeltChoice choice{utf8(device.type + ":" + device.name) + ", " + countOf(outputs, "output") +
                               (outputs == 2 ? ": two actuators" : ""),
                           {device.type + ":" + device.name},
                           outputs};
@@ -112,9 +101,8 @@ FirstStart::FirstStart(MixerModel& model, std::vector<FeltChoice> choices)
     , model_{model}
     , choices_{std::move(choices)} {
     for (int i = 0; i < std::min(mostRows, static_cast<int>(choices_.size())); ++i) {
-        auto& row =
-            *rows_.emplace_back(std::make_unique<Row>(choices_[static_cast<std::size_t>(i)].title +
-                                                      (i == 0 && choices_.size() > 1 ? "  (likely)" : "")));
+        auto& row = *rows_.emplace_back(std::make_unique<Row>(
+            nth(choices_, i).title + (i == 0 && choices_.size() > 1 ? "  (likely)" : "")));
         row.onClick = [this, i] { choose(i); };
         addChildComponent(row);
     }
@@ -134,7 +122,7 @@ void FirstStart::choose(int index) {
 
 void FirstStart::playHere() {
     if (choices_.empty()) return end(false);
-    const FeltChoice choice = choices_[static_cast<std::size_t>(chosen_)];
+    const FeltChoice choice = nth(choices_, chosen_);
     if (choice.outputs == 0) {
         model_.announce("No device: the world is seen, not felt. Output has the devices");
         return end(true);
@@ -157,7 +145,7 @@ void FirstStart::test(int outputs) {
     model_.setSlowness(0); // pause the world, so that only test pulses are felt
     model_.change("First start", [&, outputs](Mix& mix) {
         fitLayoutTo(outputs, mix, model_.device().choice().name);
-        for (int j = 0; j < mix.count(); ++j) mix.strips[static_cast<std::size_t>(j)].output = j;
+        for (int j = 0; j < mix.count(); ++j) nth(mix.strips, j).output = j;
         mix.levelDb = std::min(firstDb, mix.levelDb);
     });
     tested_ = 0;
@@ -189,8 +177,6 @@ void FirstStart::next() {
     show();
 }
 
-void FirstStart::felt() { next(); }
-
 // The tested actuator may have been detached by a message or in the window behind.
 bool FirstStart::isGone() const { return tested_ >= model_.mix().count(); }
 
@@ -198,7 +184,7 @@ void FirstStart::feltAt(double shareX, double shareY) {
     if (isGone()) return next();
     model_.change("Place of an actuator", [&](Mix& mix) {
         auto& layout = mix.layout.geometry;
-        auto& place = layout.places[static_cast<std::size_t>(tested_)]; // depth and part stay
+        auto& place = nth(layout.places, tested_); // depth and part stay
         place.xMetres = juce::jlimit(0.0, 1.0, shareX) * layout.extentWidthMetres;
         place.yMetres = juce::jlimit(0.0, 1.0, shareY) * layout.extentHeightMetres;
         mix.layout.name = "own";
@@ -208,8 +194,7 @@ void FirstStart::feltAt(double shareX, double shareY) {
 
 void FirstStart::notFelt() {
     if (isGone()) return next();
-    model_.change("Not felt",
-                  [this](Mix& mix) { mix.strips[static_cast<std::size_t>(tested_)].output = -1; });
+    model_.change("Not felt", [this](Mix& mix) { nth(mix.strips, tested_).output = -1; });
     next();
 }
 
@@ -256,7 +241,7 @@ void FirstStart::show() {
     if (!isTest) {
         const bool hasChoice = choices_.size() > 1;
         say("Where are your actuators?",
-            (hasChoice ? choices_[static_cast<std::size_t>(chosen_)].isHeard
+            (hasChoice ? nth(choices_, chosen_).isHeard
                              ? "Play here begins at once, for ears. Nothing plays before."
                              : "Play here tests each of them in turn, quietly at first. Nothing plays before."
                        : "No device was found. Plug one in, and choose it under Output.") +
@@ -264,8 +249,8 @@ void FirstStart::show() {
         play_.setButtonText(hasChoice ? "Play here" : "Go on");
         setAnswers(hasChoice ? std::vector{&play_, &without_} : std::vector{&play_});
     } else {
-        const auto& label = model_.mix().layout.enchanters[static_cast<std::size_t>(tested_)].label;
-        const int output = model_.mix().strips[static_cast<std::size_t>(tested_)].output;
+        const auto& label = nth(model_.mix().layout.enchanters, tested_).label;
+        const int output = nth(model_.mix().strips, tested_).output;
         louder_.setEnabled(model_.mix().levelDb < mostDb);
         setAnswers({&felt_, &louder_, &notFelt_, &done_});
         say("Did you feel it? Where?",
@@ -291,11 +276,10 @@ void FirstStart::paint(juce::Graphics& g) {
     Card::paint(g);
     if (tested_ < 0) return;
     const auto at = field_;
-    g.setColour(shade(*this, Shade::well));
-    g.fillRoundedRectangle(at.toFloat(), 6.0f);
+    fillRound(g, *this, Shade::well, at.toFloat(), 6.0f);
     const auto& layout = model_.mix().layout.geometry;
     for (int j = 0; j < layout.count; ++j) {
-        const auto& place = layout.places[static_cast<std::size_t>(j)];
+        const auto& place = nth(layout.places, j);
         const auto centre =
             juce::Point<double>{at.getX() + place.xMetres / layout.extentWidthMetres * at.getWidth(),
                                 at.getBottom() - place.yMetres / layout.extentHeightMetres * at.getHeight()}
@@ -304,10 +288,8 @@ void FirstStart::paint(juce::Graphics& g) {
             juce::Rectangle<float>{28.0f, 28.0f}.withCentre(centre).constrainedWithin(at.toFloat());
         g.setColour(enchanterColour(*this, j).withAlpha(j == tested_ ? 1.0f : 0.35f));
         j == tested_ ? g.fillRoundedRectangle(badge, 7.0f) : g.drawRoundedRectangle(badge, 7.0f, 2.0f);
-        g.setColour(shade(*this, j == tested_ ? Shade::well : Shade::muted));
-        g.setFont(text::font(text::medium, juce::Font::bold));
-        g.drawText(utf8(model_.mix().layout.enchanters[static_cast<std::size_t>(j)].label), badge,
-                   juce::Justification::centred, false);
+        ink(g, *this, j == tested_ ? Shade::well : Shade::muted, text::medium, juce::Font::bold);
+        g.drawText(labelOf(model_.mix(), j), badge, juce::Justification::centred, false);
     }
 }
 

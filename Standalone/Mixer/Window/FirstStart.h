@@ -2,12 +2,8 @@
 // First-start assistant: chooses the device of the actuators, then tests each actuator: was its pulse felt,
 // and where?
 #pragma once
-#include "Mixer/Model/MixerModel.h"
 #include "Mixer/Widgets/Cards.h"
-#include <functional>
-#include <memory>
 #include <string_view>
-#include <vector>
 
 namespace physvib {
 
@@ -51,7 +47,7 @@ public:
     void playHere();        ///< opens the chosen device and starts the test
     void test(int outputs); ///< tests an actuator per output, in turn, from a low level; waits for sinks
     void pulse();           ///< repeats the pulse of the tested actuator
-    void felt();            ///< the pulse was felt where the actuator is drawn; tests the next
+    void felt() { next(); } ///< the pulse was felt where the actuator is drawn; tests the next
     void feltAt(double shareX, double shareY); ///< moves the actuator there; tests the next
     void notFelt();                            ///< takes the output from the actuator; tests the next
     void louder();

@@ -4,14 +4,9 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/ReadFile.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <juce_core/juce_core.h>
 #include <system_error>
-#include <utility>
 
 namespace physvib {
 namespace {
@@ -25,14 +20,13 @@ juce::PropertiesFile::Options options() {
     return o;
 }
 
-constexpr std::size_t maxSettingsBytes = 1u << 18; // enough for eight recent documents with the longest
-                                                   // paths, fully escaped
+constexpr std::size_t maxSettingsBytes = 1u << 18; // eight documents with the longest paths, fully escaped
 constexpr std::ptrdiff_t maxSettingsTags = 1'000;  // a valid file has about thirty
 
 /// Empty, or why the settings are not read. JUCE's XML reader recurses for nested tags, processes document
 /// types, and blocks on pipes, so such files are rejected first.
 std::string faultOfSettings(const juce::File& file) {
-    const std::filesystem::path path = file.getFullPathName().toStdString();
+    const std::filesystem::path path = pathOf(file);
     if (const auto there = openRegular(path, maxSettingsBytes); !there) return there.error;
     const auto text = readFile(path, maxSettingsBytes);
     if (!text) return text.error;
@@ -50,8 +44,7 @@ juce::File readableSettings(const juce::File& file, std::string& fault) {
     if (fault.empty()) return file;
     const juce::File aside = file.withFileExtension("settings.unread");
     std::error_code code;
-    std::filesystem::rename(file.getFullPathName().toStdString(), aside.getFullPathName().toStdString(),
-                            code);
+    std::filesystem::rename(pathOf(file), pathOf(aside), code);
     fault += code ? "; settings are not kept"
                   : "; it is now " + aside.getFileName().toStdString() + ", and settings begin anew";
     return code ? juce::File{} : file;
@@ -59,103 +52,9 @@ juce::File readableSettings(const juce::File& file, std::string& fault) {
 
 juce::String today() { return juce::Time::getCurrentTime().formatted("%Y-%m-%d"); }
 
-} // namespace
-
-juce::File mixerFolder() {
-    const char* configured = std::getenv("XDG_CONFIG_HOME");
-    const juce::File base = configured != nullptr && *configured == '/'
-                                ? juce::File{configured}
-                                : juce::File::getSpecialLocation(juce::File::userApplicationDataDirectory);
-    return base.getChildFile("physvib");
-}
-
-MixerFiles::MixerFiles(const juce::File& folder)
-    : folder_{folder}
-    , copies_{folder.getFullPathName().toStdString()}
-    , settings_{readableSettings(folder.getChildFile("mixer.settings"), fault_), options()} {
-    folder_.createDirectory();
-    // JUCE would parse these as XML
-    for (const auto& key : juce::StringArray{settings_.getAllProperties().getAllKeys()})
-        if (settings_.getValue(key).trimStart().startsWithChar('<')) settings_.removeValue(key);
-    recent_.setMaxNumberOfItems(8);
-    recent_.restoreFromString(settings_.getValue("recent"));
-    recent_.removeNonExistentFiles();
-}
-
-MixerFiles::~MixerFiles() { settings_.saveIfNeeded(); }
-
-void MixerFiles::addRecent(const juce::File& file) {
-    recent_.addFile(file);
-    settings_.setValue("recent", recent_.toString());
-    settings_.saveIfNeeded();
-}
-
-DeskLimits MixerFiles::limits() const {
-    return readDeskLimits(settings_.getValue(limitsSetting).toStdString())
-        .value_or(DeskLimits::of(MixerModel::firstMix()));
-}
-
-namespace {
-
 juce::String ownMark(std::string_view text, const std::string& output) {
     return utf8(contentHash(std::string{text} + '\n' + output));
 }
-
-} // namespace
-
-void MixerFiles::addOwn(std::string_view text, const std::string& output) {
-    constexpr int mostOwn = 64;
-    auto marks = juce::StringArray::fromTokens(settings_.getValue(ownSetting), " ", {});
-    marks.add(ownMark(text, output));
-    marks.removeRange(0, marks.size() - mostOwn);
-    settings_.setValue(ownSetting, marks.joinIntoString(" "));
-}
-
-bool MixerFiles::isOwn(const juce::File& file, const std::string& output) const {
-    const auto text = readFile(file.getFullPathName().toStdString(), limits::maxSessionFileBytes);
-    return text && juce::StringArray::fromTokens(settings_.getValue(ownSetting), " ", {})
-                       .contains(ownMark(text.value, output));
-}
-
-double MixerFiles::exposureToday() const {
-    const auto words = juce::StringArray::fromTokens(settings_.getValue(exposureSetting), " ", {});
-    const double taken = words.size() == 2 && words[0] == today() ? words[1].getDoubleValue() : 0.0;
-    return std::isfinite(taken) ? std::max(0.0, taken) : 0.0;
-}
-
-// Limits the rate of file writes, because the value grows steadily.
-void MixerFiles::setExposureToday(double squareGSeconds, bool isLast) {
-    const double now = juce::Time::getMillisecondCounterHiRes();
-    if (!isLast && now - exposureAtMs_ < exposureMs) return;
-    exposureAtMs_ = now;
-    settings_.setValue(exposureSetting, today() + " " + juce::String{squareGSeconds});
-}
-
-juce::Array<juce::File> MixerFiles::ownScenes() const {
-    auto files = scenesFolder().findChildFiles(juce::File::findFiles, false, "*.json");
-    files.sort();
-    return files;
-}
-
-std::optional<std::string> MixerFiles::keep(MixerModel& model, bool isChanged) {
-    if (!isChanged) return std::string{};
-    const double now = juce::Time::getMillisecondCounterHiRes(), passed = now - keptAtMs_;
-    if (passed < (model.edits() != keptEdits_ ? keepMs : longestKeepMs)) return {};
-    return keepNow(model);
-}
-
-std::string MixerFiles::keepNow(MixerModel& model) {
-    keptAtMs_ = juce::Time::getMillisecondCounterHiRes();
-    keptEdits_ = model.edits();
-    settings_.saveIfNeeded(); // limits first, so that the copy is never newer than the mixer's saved limits
-    return copies_.keep(
-        sessionJson(model.saved(), std::filesystem::path{folder_.getFullPathName().toStdString()}));
-}
-
-// Recovery copies recovery-NAME.json, each with a lock file. The lock is separate, because the copy is
-// replaced at each update.
-
-namespace {
 
 namespace fs = std::filesystem;
 using Lock = SystemFile::Lock;
@@ -183,12 +82,96 @@ std::optional<SystemFile> tryLock(const fs::path& copy) {
 
 } // namespace
 
+juce::File mixerFolder() {
+    const char* configured = std::getenv("XDG_CONFIG_HOME");
+    const juce::File base = configured != nullptr && *configured == '/'
+                                ? juce::File{configured}
+                                : juce::File::getSpecialLocation(juce::File::userApplicationDataDirectory);
+    return base.getChildFile("physvib");
+}
+
+MixerFiles::MixerFiles(const juce::File& folder)
+    : folder_{folder}
+    , copies_{pathOf(folder)}
+    , settings_{readableSettings(folder.getChildFile("mixer.settings"), fault_), options()} {
+    folder_.createDirectory();
+    // JUCE would parse these as XML
+    for (const auto& key : juce::StringArray{settings_.getAllProperties().getAllKeys()})
+        if (settings_.getValue(key).trimStart().startsWithChar('<')) settings_.removeValue(key);
+    recent_.setMaxNumberOfItems(8);
+    recent_.restoreFromString(settings_.getValue("recent"));
+    recent_.removeNonExistentFiles();
+}
+
+MixerFiles::~MixerFiles() { settings_.saveIfNeeded(); }
+
+void MixerFiles::addRecent(const juce::File& file) {
+    recent_.addFile(file);
+    settings_.setValue("recent", recent_.toString());
+    settings_.saveIfNeeded();
+}
+
+DeskLimits MixerFiles::limits() const {
+    return readDeskLimits(settings_.getValue(limitsSetting).toStdString())
+        .value_or(DeskLimits::of(MixerModel::firstMix()));
+}
+
+void MixerFiles::addOwn(std::string_view text, const std::string& output) {
+    constexpr int mostOwn = 64;
+    auto marks = juce::StringArray::fromTokens(settings_.getValue(ownSetting), " ", {});
+    marks.add(ownMark(text, output));
+    marks.removeRange(0, marks.size() - mostOwn);
+    settings_.setValue(ownSetting, marks.joinIntoString(" "));
+}
+
+bool MixerFiles::isOwn(const juce::File& file, const std::string& output) const {
+    const auto text = readFile(pathOf(file), limits::maxSessionFileBytes);
+    return text && juce::StringArray::fromTokens(settings_.getValue(ownSetting), " ", {})
+                       .contains(ownMark(text.value, output));
+}
+
+double MixerFiles::exposureToday() const {
+    const auto words = juce::StringArray::fromTokens(settings_.getValue(exposureSetting), " ", {});
+    const double taken = words.size() == 2 && words[0] == today() ? words[1].getDoubleValue() : 0.0;
+    return std::isfinite(taken) ? std::max(0.0, taken) : 0.0;
+}
+
+// Limits the rate of file writes, because the value grows steadily.
+void MixerFiles::setExposureToday(double squareGSeconds, bool isLast) {
+    const double now = nowMs();
+    if (!isLast && now - exposureAtMs_ < exposureMs) return;
+    exposureAtMs_ = now;
+    settings_.setValue(exposureSetting, today() + " " + juce::String{squareGSeconds});
+}
+
+juce::Array<juce::File> MixerFiles::ownScenes() const {
+    auto files = scenesFolder().findChildFiles(juce::File::findFiles, false, "*.json");
+    files.sort();
+    return files;
+}
+
+std::optional<std::string> MixerFiles::keep(MixerModel& model, bool isChanged) {
+    if (!isChanged) return std::string{};
+    const double now = nowMs(), passed = now - keptAtMs_;
+    if (passed < (model.edits() != keptEdits_ ? keepMs : longestKeepMs)) return {};
+    return keepNow(model);
+}
+
+std::string MixerFiles::keepNow(MixerModel& model) {
+    keptAtMs_ = nowMs();
+    keptEdits_ = model.edits();
+    settings_.saveIfNeeded(); // limits first, so that the copy is never newer than the mixer's saved limits
+    return copies_.keep(sessionJson(model.saved(), std::filesystem::path{pathOf(folder_)}));
+}
+
+// Recovery copies recovery-NAME.json, each with a lock file. The lock is separate, because the copy is
+// replaced at each update.
+
 RecoveryCopies::RecoveryCopies(const fs::path& folder)
     : folder_{folder}
     , own_{folder / (std::string{prefix} + juce::Uuid{}.toString().toStdString() + ".json")} {
     std::error_code code;
-    for (fs::path copy : filesOf(folder, ".lock")) // lock files of runs that ended before their first copy
-                                                   // was complete
+    for (fs::path copy : filesOf(folder, ".lock")) // of runs that ended before their first copy was there
         if (!fs::exists(fs::symlink_status(copy.replace_extension(".json"), code))) remove(copy);
 }
 

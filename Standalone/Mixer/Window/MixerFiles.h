@@ -2,15 +2,10 @@
 // Files that the mixer keeps between runs: settings, recent documents, and recovery copies of the session.
 #pragma once
 #include "Io/Disk/SystemFile.h"
-#include "Live/Documents/Mix.h"
-#include "Live/Documents/SessionFile.h"
 #include "Mixer/Model/MixerModel.h"
 #include <filesystem>
 #include <juce_gui_extra/juce_gui_extra.h>
-#include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace physvib {
 
@@ -76,8 +71,7 @@ public:
 
     /// Vibration exposure from this mixer today, in g^2 s, weighted. Stored between runs, even after a crash.
     double exposureToday() const;
-    void setExposureToday(double squareGSeconds, bool isLast = false); ///< written at intervals, and at the
-                                                                       ///< end
+    void setExposureToday(double squareGSeconds, bool isLast = false); ///< written now and then, and at last
 
     /// Folder of the user's scenes.
     juce::File scenesFolder() const { return folder_.getChildFile("scenes"); }

@@ -2,17 +2,12 @@
 // The panels, keyboard handling, and display updates.
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Materials/MaterialsTab.h"
-#include "Mixer/Model/MixerMessages.h"
-#include "Mixer/Output/EnchantersTab.h"
 #include "Mixer/Output/EventsTab.h"
 #include "Mixer/Output/OutputTab.h"
 #include "Mixer/Output/TakesTab.h"
-#include "Mixer/Output/TelemetryTab.h"
 #include "Mixer/Strips/LanesTab.h"
 #include "Mixer/Strips/ScopeView.h"
 #include "Mixer/Studies/StudiesTab.h"
-#include <algorithm>
-#include <utility>
 
 namespace physvib {
 namespace {
@@ -118,10 +113,7 @@ MixerView::MixerView(MixerModel& model)
             dividers_.*which = 0.0;
             resized();
         };
-    addChildComponent(curtain_);
-    addChildComponent(trouble_);
-    addChildComponent(*dismiss_);
-    addChildComponent(*act_);
+    addHidden(*this, {&curtain_, &trouble_, dismiss_.get(), act_.get()});
     prepareControls(*this);
     model_.addChangeListener(this);
     addMouseListener(this, true);
@@ -202,14 +194,14 @@ void MixerView::setMode(Mode mode) {
 }
 
 void MixerView::setPanels(const Panels& panels) {
-    panels_[static_cast<std::size_t>(mode_)] = panels;
+    nth(panels_, mode_) = panels;
     showPanels();
 }
 
 // Not the strips where they would leave the field too little.
 Panels MixerView::panels() const {
     constexpr int least = 760;
-    const auto& chosen = panels_[static_cast<std::size_t>(mode_)];
+    const auto& chosen = nth(panels_, mode_);
     return chosen.value_or(Panels{false, mode_ == Mode::engineer && getHeight() >= least});
 }
 
@@ -226,7 +218,7 @@ void MixerView::setOrder(const juce::String& order) {
     const auto words = juce::StringArray::fromTokens(order, " ", {});
     for (int k = 0; k < 2; ++k)
         if (words[k + 1].length() == 2)
-            panels_[static_cast<std::size_t>(k)] = Panels{words[k + 1][0] == '1', words[k + 1][1] == '1'};
+            nth(panels_, k) = Panels{words[k + 1][0] == '1', words[k + 1][1] == '1'};
     setMode(words[0] == "engineer" ? Mode::engineer : Mode::play);
 }
 
@@ -430,8 +422,6 @@ bool MixerView::keyPressed(const juce::KeyPress& key) {
         return model_.undoManager().redo(), true;
     return world_.keyPressed(key);
 }
-
-void MixerView::paint(juce::Graphics& g) { g.fillAll(shade(*this, Shade::ground)); }
 
 void MixerView::paintOverChildren(juce::Graphics& g) {
     if (!isDropShown_) return;

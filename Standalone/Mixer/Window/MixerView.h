@@ -1,19 +1,73 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Contents of the mixer's window: top bar, world, tabs, scope and strips.
+// Contents of the mixer's window: a bar that is always visible (scene and time, device status, the silence
+// button), world, tabs, scope and strips.
 #pragma once
 #include "Host/Views/EmergencyStop.h"
 #include "Mixer/Strips/StripsPanel.h"
-#include "Mixer/Widgets/Cards.h"
-#include "Mixer/Widgets/Parts.h"
 #include "Mixer/Widgets/Typefaces.h"
 #include "Mixer/Window/FirstStart.h"
-#include "Mixer/Window/TopBar.h"
 #include "Mixer/World/WorldPanel.h"
-#include <array>
-#include <juce_gui_basics/juce_gui_basics.h>
-#include <optional>
 
 namespace physvib {
+
+class TopBar final : public juce::Component {
+public:
+    explicit TopBar(MixerModel& model);
+
+    void refresh(const MixerMoment& moment);
+    void mixChanged(); ///< the mixer state changed
+    void togglePause() { model_.setSlowness(model_.session().world().slowness() == 0 ? 1 : 0); }
+
+    std::function<void(juce::Component& from)> onMenu = [](juce::Component&) {};
+    std::function<void()> onRecord = [] {}, onSave = [] {}, onOpenScene = [] {}, onDevice = [] {};
+    std::function<void(const juce::File&)> onOwnScene = [](const juce::File&) {};
+    void setOwnScenes(const juce::Array<juce::File>& files); ///< listed below the built-in ones
+    void setRecording(bool isRecording);                     ///< counts its seconds
+    void setDocument(const juce::String& name) { save_.setTooltip("Save " + name + " (Ctrl+S)"); }
+    /// Only the button that silences is left.
+    void setShow(bool isShow);
+    /// Without the controls of an engineer.
+    void setPlay(bool isPlay);
+    std::function<void()> onMode = [] {}; ///< the other mode is wanted
+
+    static constexpr int lineHeight = 52, showWidth = WorldPanel::silenceWidth;
+    /// One line, or two in a narrow window, or where a board has something to say there.
+    int heightFor(int width) const {
+        return isPlay_ || width >= (hasBoard_ ? minFacts : minOneLine) ? lineHeight : lineHeight + secondLine;
+    }
+
+    void paint(juce::Graphics& g) override {
+        if (!isShow_) g.fillAll(shade(*this, Shade::panel));
+    }
+    void resized() override;
+
+private:
+    static constexpr int minOneLine = 1260, minFacts = 1400, secondLine = 24; // facts: load and board, too
+    void placeStates(juce::Rectangle<int> area);
+    void showControls();
+    bool isShow_ = false, isPlay_ = false, isToldOfLoad_ = false;
+    void chooseScene();
+    void listScenes();
+    juce::Array<juce::File> own_;
+
+    MixerModel& model_;
+    const bool hasBoard_;
+    int looks_ = 0;
+    struct Lost { // in all
+        std::uint64_t late = 0, lost = 0;
+        bool operator==(const Lost&) const = default;
+    } lost_, lostBefore_; // before it was last fine
+    double lostAtMs_ = 0.0;
+    bool isRecording_ = false;
+    std::int64_t recordedFromNs_ = -1; // not seen yet
+    juce::TextButton menu_{"Menu"}, slow_, record_, mode_, silence_{"SILENCE  Esc"};
+    juce::ComboBox scene_;
+    SignButton pause_{Sign::pause, "Pause the world"}, step_{Sign::step, "One step of the world"},
+        restart_{Sign::restart, "Start the scene anew"}, save_{Sign::save, "Save the session (Ctrl+S)"},
+        undo_{Sign::undo, "Undo"}, redo_{Sign::redo, "Redo"};
+    juce::Label seed_, time_;
+    TwoLines device_{"Device state"}, board_{"Board state"}, load_{"Load"};
+};
 
 /// Places of the dividers as shares of the width or height that they divide; 0: automatic.
 struct Dividers {
@@ -124,7 +178,7 @@ public:
     void mouseUp(const juce::MouseEvent&) override { drawCurtain(); }
     void mouseDrag(const juce::MouseEvent& e) override { releaseAtRightClick(e); }
     bool keyPressed(const juce::KeyPress& key) override;
-    void paint(juce::Graphics& g) override;
+    void paint(juce::Graphics& g) override { g.fillAll(shade(*this, Shade::ground)); }
     void paintOverChildren(juce::Graphics& g) override;
     void resized() override;
 

@@ -2,19 +2,13 @@
 // The mixer's window: document, settings, keys and menu.
 #include "Mixer/Window/MixerWindow.h"
 #include "Calls/SessionMovie.h"
-#include "Core/Limits.h"
-#include "Host/Views/WorldView.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/NoDevice.h"
-#include "Live/Recordings/Recording.h"
 #include "Mixer/Studies/StudiesTab.h"
-#include "Mixer/Window/PageLink.h"
 #include "Scene/FileKind.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneValidation.h"
-#include <algorithm>
-#include <array>
 
 namespace physvib {
 namespace {
@@ -36,6 +30,75 @@ constexpr const char* displayWidthSetting = "display-width-mm"; // 0: as the sys
 /// Size of borders and title bar; the exact size is known only after the window exists.
 constexpr juce::Point<int> frameRoom{8, 40};
 constexpr auto command = juce::ModifierKeys::commandModifier, shift = juce::ModifierKeys::shiftModifier;
+
+constexpr const char* sessionEnding = ".json";
+constexpr double minMovieSeconds = 1.0, usualMovieSeconds = 60.0;
+constexpr double longestRender = 86'400.0; // the limit of `physvib render`
+
+juce::String tenths(double seconds) { return juce::String{std::ceil(10.0 * seconds) / 10.0, 1}; }
+
+// without thousands separators
+QuestionCard::Field secondsField(double seconds) { return {"Seconds", tenths(seconds), "0123456789."}; }
+
+/// Copy of `mix` with the scene or the layout of the file.
+Result<Mix> mixWith(Mix mix, const juce::File& file) {
+    const FileKind kind = fileKind(pathOf(file));
+    if (kind == FileKind::scene) {
+        const auto scene = loadScene(pathOf(file));
+        if (!scene) return Failure{scene.error};
+        mix.scene = std::make_shared<const Scene>(scene.value);
+    } else if (kind == FileKind::layout) {
+        const auto layout = loadLayout(pathOf(file));
+        if (!layout) return Failure{layout.error};
+        mix.layout = layout.value;
+        mix.resizeStrips();
+    } else
+        return Failure{pathOf(file) + ": expected a session, a scene or a layout"};
+    return mix;
+}
+
+constexpr std::size_t maxOffered = 20; // as many as a user may look through; each is read when it is shown
+
+juce::String nameOf(const std::filesystem::path& copy) { return utf8(copy.filename().string()); }
+
+/// Time and contents of a copy, or why it cannot be read.
+juce::String describe(const std::filesystem::path& copy, const Result<SavedSession>& session) {
+    const auto time =
+        juce::File{utf8(copy.string())}.getLastModificationTime().toString(true, true, true, true);
+    if (!session) return "Of " + time + ": " + utf8(session.error).replace(utf8(copy.string()), nameOf(copy));
+    const Mix mix = mixOf(session.value);
+    return "Kept at " + time + ": " + titleOf(mix.scene->name) + " on " + juce::String{mix.count()} +
+           " actuators, played for " + number(1e-9 * static_cast<double>(session.value.lengthNs), 1) + " s.";
+}
+
+constexpr const char *pageSetting = "page", *pageField = "Address of the page", *linkField = "Link",
+                     *copyWords = "Copy the link", *openWords = "Open it", *serveWords = "Serve it here";
+
+constexpr std::array<int, 7> zooms{60, 75, 100, 125, 150, 175, 200};
+constexpr const char* zoomSetting = "zoom";
+constexpr juce::Point<int> usualDisplay{1920, 1080}; // at 100 %
+
+/// Room of the display in pixels at 100 %.
+juce::Point<int> displayRoom() {
+    auto& desktop = juce::Desktop::getInstance();
+    const auto* display = desktop.getDisplays().getPrimaryDisplay();
+    if (display == nullptr) return usualDisplay;
+    const auto area = usableOf(*display).toFloat() * desktop.getGlobalScaleFactor();
+    return {juce::roundToInt(area.getWidth()), juce::roundToInt(area.getHeight())};
+}
+
+bool fits(int percent, juce::Point<int> room) {
+    return 100 * room.x >= percent * MixerView::minWidth && 100 * room.y >= percent * MixerView::minHeight;
+}
+
+/// The largest zoom that leaves the window the room of a usual display.
+int automaticZoom(juce::Point<int> room) {
+    int best = 100;
+    for (const int percent : zooms)
+        if (100 * room.x >= percent * usualDisplay.x && 100 * room.y >= percent * usualDisplay.y)
+            best = std::max(best, percent);
+    return best;
+}
 
 } // namespace
 
@@ -230,7 +293,7 @@ void MixerWindow::timerCallback() {
     settings.setValue(beforeEarsSetting, before.joinIntoString(" "));
     settings.setValue("rate", device_.sampleRateHz);
     settings.setValue("block", device_.blockFrames);
-    settings.setValue("osc", oscUseNames[static_cast<std::size_t>(model_->inputs().choice().use)]);
+    settings.setValue("osc", nth(oscUseNames, model_->inputs().choice().use));
     settings.setValue("osc-to", utf8(model_->inputs().choice().receiver));
     settings.setValue("osc-turn", model_->inputs().choice().turnDegrees);
     for (const std::size_t ear : {0u, 1u})
@@ -536,38 +599,6 @@ juce::PopupMenu MixerWindow::worldMenu() {
     return menu;
 }
 
-namespace {
-
-constexpr const char* sessionEnding = ".json";
-constexpr double minMovieSeconds = 1.0, usualMovieSeconds = 60.0;
-constexpr double longestRender = 86'400.0; // the limit of `physvib render`
-
-juce::String tenths(double seconds) { return juce::String{std::ceil(10.0 * seconds) / 10.0, 1}; }
-
-// without thousands separators
-QuestionCard::Field secondsField(double seconds) { return {"Seconds", tenths(seconds), "0123456789."}; }
-
-std::string pathOf(const juce::File& file) { return file.getFullPathName().toStdString(); }
-
-/// Copy of `mix` with the scene or the layout of the file.
-Result<Mix> mixWith(Mix mix, const juce::File& file) {
-    const FileKind kind = fileKind(pathOf(file));
-    if (kind == FileKind::scene) {
-        const auto scene = loadScene(pathOf(file));
-        if (!scene) return Failure{scene.error};
-        mix.scene = std::make_shared<const Scene>(scene.value);
-    } else if (kind == FileKind::layout) {
-        const auto layout = loadLayout(pathOf(file));
-        if (!layout) return Failure{layout.error};
-        mix.layout = layout.value;
-        mix.resizeStrips();
-    } else
-        return Failure{pathOf(file) + ": expected a session, a scene or a layout"};
-    return mix;
-}
-
-} // namespace
-
 bool MixerWindow::load(const juce::File& file, const juce::File& document, bool isOwn) {
     auto session = loadSession(pathOf(file));
     if (session) {
@@ -791,8 +822,6 @@ void MixerWindow::record() {
     if (!error.empty()) say(utf8(error));
 }
 
-double MixerWindow::playedSeconds() const { return 1e-9 * static_cast<double>(model_->saved().lengthNs); }
-
 void MixerWindow::askSeconds(const juce::String& title, const juce::String& words, double seconds,
                              juce::Range<double> limits, const juce::String& what,
                              std::function<void(double)> use) {
@@ -872,24 +901,6 @@ void MixerWindow::exportLayout() {
 void MixerWindow::import(const juce::String& title) {
     chooseFile(title, sessionEnding, false, [this](const juce::File& file) { openFile(file); });
 }
-
-namespace {
-
-constexpr std::size_t maxOffered = 20; // as many as a user may look through; each is read when it is shown
-
-juce::String nameOf(const std::filesystem::path& copy) { return utf8(copy.filename().string()); }
-
-/// Time and contents of a copy, or why it cannot be read.
-juce::String describe(const std::filesystem::path& copy, const Result<SavedSession>& session) {
-    const auto time =
-        juce::File{utf8(copy.string())}.getLastModificationTime().toString(true, true, true, true);
-    if (!session) return "Of " + time + ": " + utf8(session.error).replace(utf8(copy.string()), nameOf(copy));
-    const Mix mix = mixOf(session.value);
-    return "Kept at " + time + ": " + titleOf(mix.scene->name) + " on " + juce::String{mix.count()} +
-           " actuators, played for " + number(1e-9 * static_cast<double>(session.value.lengthNs), 1) + " s.";
-}
-
-} // namespace
 
 // Shows the newest readable copy, with a line on the first unreadable one.
 void MixerWindow::offerRecovery() {
@@ -972,7 +983,7 @@ std::string MixerWindow::saveSceneTo(const juce::File& file, bool isNow) {
     scene.name = file.getFileNameWithoutExtension().toStdString();
     scene.variables.clear();
     if (auto fault = validate(scene); !fault.empty()) return fault;
-    auto error = writeFile(file.getFullPathName().toStdString(), sceneJson(scene));
+    auto error = writeFile(pathOf(file), sceneJson(scene));
     if (error.empty()) view_->topBar().setOwnScenes(files_.ownScenes());
     return error;
 }
@@ -989,13 +1000,6 @@ void MixerWindow::newScene(SceneGround ground) {
     });
     view_->world().drawing().use(DrawTool::ball);
 }
-
-namespace {
-
-constexpr const char *pageSetting = "page", *pageField = "Address of the page", *linkField = "Link",
-                     *copyWords = "Copy the link", *openWords = "Open it", *serveWords = "Serve it here";
-
-} // namespace
 
 // Where nobody has the page, the world goes as a file.
 void MixerWindow::share(bool isElsewhere) {
@@ -1074,36 +1078,6 @@ void MixerWindow::serve() {
     });
 }
 
-namespace {
-
-constexpr std::array<int, 7> zooms{60, 75, 100, 125, 150, 175, 200};
-constexpr const char* zoomSetting = "zoom";
-constexpr juce::Point<int> usualDisplay{1920, 1080}; // at 100 %
-
-/// Room of the display in pixels at 100 %.
-juce::Point<int> displayRoom() {
-    auto& desktop = juce::Desktop::getInstance();
-    const auto* display = desktop.getDisplays().getPrimaryDisplay();
-    if (display == nullptr) return usualDisplay;
-    const auto area = usableOf(*display).toFloat() * desktop.getGlobalScaleFactor();
-    return {juce::roundToInt(area.getWidth()), juce::roundToInt(area.getHeight())};
-}
-
-bool fits(int percent, juce::Point<int> room) {
-    return 100 * room.x >= percent * MixerView::minWidth && 100 * room.y >= percent * MixerView::minHeight;
-}
-
-/// The largest zoom that leaves the window the room of a usual display.
-int automaticZoom(juce::Point<int> room) {
-    int best = 100;
-    for (const int percent : zooms)
-        if (100 * room.x >= percent * usualDisplay.x && 100 * room.y >= percent * usualDisplay.y)
-            best = std::max(best, percent);
-    return best;
-}
-
-} // namespace
-
 int MixerWindow::zoom() {
     const int percent = files_.settings().getIntValue(zoomSetting); // which may hold anything
     return std::ranges::find(zooms, percent) == zooms.end() ? 0 : percent;
@@ -1117,8 +1091,7 @@ void MixerWindow::setZoom(int percent) {
 void MixerWindow::stepZoom(int by) {
     const int now = juce::roundToInt(100.0f * juce::Desktop::getInstance().getGlobalScaleFactor());
     const auto at = std::ranges::lower_bound(zooms, now) - zooms.begin() + by;
-    if (at >= 0 && at < std::ssize(zooms) && fits(zooms[static_cast<std::size_t>(at)], displayRoom()))
-        setZoom(zooms[static_cast<std::size_t>(at)]);
+    if (at >= 0 && at < std::ssize(zooms) && fits(nth(zooms, at), displayRoom())) setZoom(nth(zooms, at));
 }
 
 // Plus needs Shift on some keyboards, and has a key of its own beside the digits.

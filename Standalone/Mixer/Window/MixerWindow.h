@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mixer's window with its document: opens, saves, records, renders, and asks before changes are lost.
 #pragma once
-#include "Mixer/Model/MixerRecording.h"
 #include "Mixer/Output/EventsTab.h"
-#include "Mixer/Widgets/Cards.h"
-#include "Mixer/Widgets/Parts.h"
 #include "Mixer/Window/MixerFiles.h"
 #include "Mixer/Window/MixerView.h"
 #include "Mixer/Window/PageLink.h"
-#include "Scene/Drawing/BodyEdits.h"
-#include <functional>
-#include <string>
 
 namespace physvib {
 
@@ -128,7 +122,7 @@ private:
     void chooseFolder();
     juce::File folderOfDocuments() const;
     juce::String documentName() const;
-    double playedSeconds() const;
+    double playedSeconds() const { return 1e-9 * static_cast<double>(model_->saved().lengthNs); }
     void make(const juce::File& file, const juce::String& doneWords, RenderTask::Work work);
 
     AudioDrivers drivers_;

@@ -64,7 +64,7 @@ Result<std::string> pageLink(const Mix& mix, const Scene& drawn) {
     if (mix.seed != 1) link += "&seed=" + std::to_string(mix.seed);
     std::string places;
     for (int j = 0; j < layout.count; ++j) {
-        const auto& place = layout.places[static_cast<std::size_t>(j)];
+        const auto& place = nth(layout.places, j);
         if (place.zMetres != 0.0 || place.part != 0)
             return Failure{"A link holds actuators of a plane: expected no depth and no parts of the body"};
         if (j > 0) places += ' ';

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls and status text of the top bar.
-#include "Mixer/Window/TopBar.h"
 #include "Live/Devices/NoDevice.h"
+#include "Mixer/Window/MixerView.h"
 #include "Scene/SceneFile.h"
 
 namespace physvib {
@@ -36,12 +36,8 @@ TopBar::TopBar(MixerModel& model)
     setTitle("Transport and device");
     describe(menu_, "Menu", "Open, save, record, render (F10)");
     menu_.setMouseClickGrabsKeyboardFocus(false); // after its menu the keys are again of who had them
-    menu_.onClick = [this] {
-        if (onMenu) onMenu(menu_);
-    };
-    save_.onClick = [this] {
-        if (onSave) onSave();
-    };
+    menu_.onClick = [this] { onMenu(menu_); };
+    save_.onClick = [this] { onSave(); };
     undo_.onClick = [this] { model_.undoManager().undo(); };
     redo_.onClick = [this] { model_.undoManager().redo(); };
     scene_.setTitle("Scene");
@@ -68,18 +64,12 @@ TopBar::TopBar(MixerModel& model)
     time_.setFont(text::font(text::medium, juce::Font::bold));
     describe(record_, "Record", "Record what is played, and every event (Ctrl+R)");
     record_.getProperties().set(tintProperty, static_cast<juce::int64>(palette::limit.getARGB()));
-    record_.onClick = [this] {
-        if (onRecord) onRecord();
-    };
+    record_.onClick = [this] { onRecord(); };
     device_.setMouseClickGrabsKeyboardFocus(false);
     device_.setMouseCursor(juce::MouseCursor::PointingHandCursor);
-    device_.onClick = [this] {
-        if (onDevice) onDevice();
-    };
+    device_.onClick = [this] { onDevice(); };
     mode_.setTitle("Mode");
-    mode_.onClick = [this] {
-        if (onMode) onMode();
-    };
+    mode_.onClick = [this] { onMode(); };
     silence_.getProperties().set(stopProperty, true);
     silence_.setMouseClickGrabsKeyboardFocus(false); // an open card keeps it
     describe(silence_, "Silence",
@@ -92,8 +82,6 @@ TopBar::TopBar(MixerModel& model)
     setPlay(false);
     mixChanged();
 }
-
-void TopBar::togglePause() { model_.setSlowness(model_.session().world().slowness() == 0 ? 1 : 0); }
 
 void TopBar::setOwnScenes(const juce::Array<juce::File>& files) {
     if (files == own_) return;
@@ -115,11 +103,11 @@ void TopBar::chooseScene() {
     const int id = scene_.getSelectedId();
     if (id == sceneFileId) {
         mixChanged();
-        if (onOpenScene) onOpenScene();
+        onOpenScene();
     } else if (id > sceneFileId) {
-        if (onOwnScene) onOwnScene(own_[id - sceneFileId - 1]);
+        onOwnScene(own_[id - sceneFileId - 1]);
     } else if (id > 0) {
-        const auto& scene = builtInScenes()[static_cast<std::size_t>(id - 1)];
+        const auto& scene = nth(builtInScenes(), id - 1);
         if (scene == *model_.mix().scene) return;
         model_.change("Scene", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene); });
     }
@@ -223,13 +211,8 @@ void TopBar::setPlay(bool isPlay) {
 
 void TopBar::showControls() {
     for (auto* child : getChildren()) child->setVisible(!isShow_ || child == &silence_);
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&step_, &slow_, &seed_, &time_})
-        c->setVisible(!isShow_ && !isPlay_);
+    physvib::setVisible({&step_, &slow_, &seed_, &time_}, !isShow_ && !isPlay_);
     resized();
-}
-
-void TopBar::paint(juce::Graphics& g) {
-    if (!isShow_) g.fillAll(shade(*this, Shade::panel));
 }
 
 void TopBar::resized() {
@@ -258,8 +241,7 @@ void TopBar::resized() {
                                                                                 {&record_, 90, between},
                                                                                 {&mode_, 66, between}}) {
         if (!component->isVisible()) continue;
-        component->setBounds(area.removeFromLeft(area.getWidth() < width ? 0 : width)); // whole, or not at
-                                                                                        // all
+        component->setBounds(area.removeFromLeft(area.getWidth() < width ? 0 : width)); // whole, or not
         area.removeFromLeft(after);
     }
     if (!isShow_) placeStates(isOneLine ? area : states);

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Buttons and controls that show and change the selected tool, material and bodies.
 #include "Mixer/World/DrawBar.h"
-#include "Host/Views/Look.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Scene/Drawing/FeltTrial.h"
 #include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <utility>
 
 namespace physvib {
 
@@ -59,6 +53,29 @@ constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1;
 
 /// Hands, shapes, joints, and what takes away.
 int groupOf(int button) { return button < 2 ? 0 : button < 9 ? 1 : button < 14 ? 2 : 3; }
+
+constexpr std::array<RainPattern, 7> rainPatterns{
+    {{0, false}, {5, false}, {20, false}, {50, false}, {5, true}, {20, true}, {50, true}}};
+
+/// What a trial of materials depends on: which kinds of surfaces the scene has.
+std::set<std::tuple<bool, int, bool>> surfacesOf(const Scene& scene) {
+    std::set<std::tuple<bool, int, bool>> all;
+    for (const BodyDescription& body : scene.bodies)
+        for (const FixtureDescription& f : body.fixtures)
+            all.emplace(body.type == BodyType::dynamicBody, f.material, f.isCamera);
+    return all;
+}
+
+bool vibrates(const Scene& scene, const BodyDescription& body) {
+    return nth(scene.materials, body.fixtures[0].material).frequencyHz > 0.0;
+}
+/// What a swatch or a button asks of a material, in its menu or at once.
+void editMaterial(juce::Component& from, bool isMenu, MixerModel& model, int material,
+                  const std::function<void(int)>& made, const MaterialPage& page) {
+    if (!isMenu) return askMaterial(from, model, material, false, [](int) {});
+    showMaterialMenu(from, model, material, made,
+                     [&page, material](bool isRecording) { page(material, isRecording); });
+}
 } // namespace
 
 int DrawBar::highFor(int height) {
@@ -82,9 +99,8 @@ void DrawBar::resized() {
     const int apart = rows < buttonCount ? 0 // columns of one line each
                                          : std::min((getHeight() + between - rows * (each + between)) / 3, 8);
     for (int k = 0; k <= static_cast<int>(tools_.size()); ++k) {
-        auto& button = k < static_cast<int>(tools_.size())
-                           ? static_cast<juce::Component&>(*tools_[static_cast<std::size_t>(k)])
-                           : snap_;
+        auto& button =
+            k < static_cast<int>(tools_.size()) ? static_cast<juce::Component&>(*nth(tools_, k)) : snap_;
         button.setBounds(k / rows * (wide + between), k % rows * (each + between) + groupOf(k) * apart, wide,
                          each);
     }
@@ -159,19 +175,6 @@ private:
     const juce::Colour colour_;
     bool isFelt_ = true;
 };
-
-namespace {
-bool vibrates(const Scene& scene, const BodyDescription& body) {
-    return scene.materials[static_cast<std::size_t>(body.fixtures[0].material)].frequencyHz > 0.0;
-}
-/// What a swatch or a button asks of a material, in its menu or at once.
-void editMaterial(juce::Component& from, bool isMenu, MixerModel& model, int material,
-                  const std::function<void(int)>& made, const MaterialPage& page) {
-    if (!isMenu) return askMaterial(from, model, material, false, [](int) {});
-    showMaterialMenu(from, model, material, made,
-                     [&page, material](bool isRecording) { page(material, isRecording); });
-}
-} // namespace
 
 BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page)
     : model_{model}
@@ -282,11 +285,6 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page
 
 BodyPanel::~BodyPanel() = default;
 
-void BodyPanel::edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit) {
-    const auto error = actions ? model_.world().edit(name, actions.value, continuesEdit) : actions.error;
-    if (!error.empty()) model_.report(utf8(error));
-}
-
 void BodyPanel::show() {
     const auto& chosen = pane_.chosen();
     const auto* body = chosen.empty() ? nullptr : model_.world().drawing().find(chosen[0]);
@@ -295,22 +293,19 @@ void BodyPanel::show() {
     const Scene& scene = model_.world().drawing().drawn();
     const auto* motor = chosen.size() == 1 ? motorOf(scene, chosen[0]) : nullptr;
     drivenJoint_ = motor ? motor->name : std::string{};
-    for (juce::Component* c :
-         std::initializer_list<juce::Component*>{&speedName_, &speed_, &torqueName_, &torque_})
-        c->setVisible(motor != nullptr);
+    physvib::setVisible({&speedName_, &speed_, &torqueName_, &torque_}, motor != nullptr);
     if (motor && !speed_.isMouseButtonDown() && !torque_.isMouseButtonDown()) {
         speed_.setValue(driveOf(*motor).radiansPerSecond, juce::dontSendNotification);
         torque_.setValue(driveOf(*motor).maxTorqueNewtonMetres, juce::dontSendNotification);
     }
     const auto* spring = chosen.size() == 1 ? springOf(scene, chosen[0]) : nullptr;
     springJoint_ = spring ? spring->name : std::string{};
-    springName_.setVisible(spring != nullptr);
-    spring_.setVisible(spring != nullptr);
+    physvib::setVisible({&springName_, &spring_}, spring != nullptr);
     if (spring && !spring_.isMouseButtonDown())
         spring_.setValue(springHzOf(*spring), juce::dontSendNotification);
     const double belt = body->velocityMetresPerSecond.x;
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&beltName_, &belt_})
-        c->setVisible(chosen.size() == 1 && body->type == BodyType::staticBody && belt != 0.0);
+    physvib::setVisible({&beltName_, &belt_},
+                        chosen.size() == 1 && body->type == BodyType::staticBody && belt != 0.0);
     if (!belt_.isMouseButtonDown()) belt_.setValue(belt, juce::dontSendNotification);
     const auto differ = [&](auto what) {
         return std::ranges::any_of(chosen, [&](const std::string& name) {
@@ -320,7 +315,7 @@ void BodyPanel::show() {
     };
     const auto bounceOf = [&scene](const BodyDescription& b) {
         const auto& f = b.fixtures[0];
-        return f.restitution.value_or(scene.materials[static_cast<std::size_t>(f.material)].restitution);
+        return f.restitution.value_or(nth(scene.materials, f.material).restitution);
     };
     const auto marked = [](const char* words, bool isMarked) {
         return words + (isMarked ? " " + juce::String::charToString(0x2260) : juce::String{}); // not equal
@@ -347,14 +342,13 @@ void BodyPanel::show() {
         source_, "haptic source", [&scene](const BodyDescription& b) { return vibrates(scene, b); },
         isSource);
     const bool isMixed = differ([](const auto& b) { return b.fixtures[0].material; });
-    const auto material =
-        isMixed ? juce::String{"several materials"}
-                : utf8(scene.materials[static_cast<std::size_t>(body->fixtures[0].material)].name);
+    const auto material = isMixed ? juce::String{"several materials"}
+                                  : utf8(nth(scene.materials, body->fixtures[0].material).name);
     if (std::exchange(shown_, scene.materials) != scene.materials) {
         materials_.clear();
         for (int i = 0; i < static_cast<int>(shown_.size()); ++i) {
-            auto& swatch = *materials_.emplace_back(std::make_unique<MaterialSwatch>(
-                shown_[static_cast<std::size_t>(i)], palette::material(shown_, i)));
+            auto& swatch = *materials_.emplace_back(
+                std::make_unique<MaterialSwatch>(nth(shown_, i), palette::material(shown_, i)));
             describe(swatch, "Made of " + swatch.getName(),
                      swatch.getName() + ": what is chosen is made of it");
             swatch.onClick = [this, i] { pane_.giveMaterial(i), show(); };
@@ -376,11 +370,6 @@ void BodyPanel::show() {
     material_->setEnabled(!isMixed);
     if (!density_.isMouseButtonDown()) density_.setValue(densityOf(scene, *body), juce::dontSendNotification);
     if (!bounce_.isMouseButtonDown()) bounce_.setValue(bounceOf(*body), juce::dontSendNotification);
-}
-
-void BodyPanel::paint(juce::Graphics& g) {
-    g.setColour(shade(*this, Shade::raised));
-    g.fillRoundedRectangle(getLocalBounds().toFloat(), 8.0f);
 }
 
 // What goes together stays in one line; in a narrow panel a slider has a line of its own.
@@ -424,22 +413,6 @@ int BodyPanel::flow(int width, bool places) {
     return y + rowHigh + edge;
 }
 
-namespace {
-
-constexpr std::array<RainPattern, 7> rainPatterns{
-    {{0, false}, {5, false}, {20, false}, {50, false}, {5, true}, {20, true}, {50, true}}};
-
-/// What a trial of materials depends on: which kinds of surfaces the scene has.
-std::set<std::tuple<bool, int, bool>> surfacesOf(const Scene& scene) {
-    std::set<std::tuple<bool, int, bool>> all;
-    for (const BodyDescription& body : scene.bodies)
-        for (const FixtureDescription& f : body.fixtures)
-            all.emplace(body.type == BodyType::dynamicBody, f.material, f.isCamera);
-    return all;
-}
-
-} // namespace
-
 MaterialPalette::MaterialPalette(MixerModel& model, DrawPane& pane, const MaterialPage& page)
     : model_{model}
     , pane_{pane}
@@ -457,16 +430,14 @@ MaterialPalette::MaterialPalette(MixerModel& model, DrawPane& pane, const Materi
                          : (way.isFountain ? "fountain, " : "") + juce::String{way.perSecond} + " a second",
                      id++);
     way_.onChange = [this] {
-        if (const int k = way_.getSelectedItemIndex(); k >= 0)
-            pane_.setRainPattern(rainPatterns[static_cast<std::size_t>(k)]);
+        if (const int k = way_.getSelectedItemIndex(); k >= 0) pane_.setRainPattern(nth(rainPatterns, k));
     };
     new_.onClick = [this] { askMaterial(*this, model_, pane_.material(), true, use_); };
     edit_.setButtonText("Edit" + dots());
     describe(edit_, "Edit the material", "The chosen material: name, colour, copy, figures, recording");
     edit_.onClick = [this] { editMaterial(edit_, true, model_, pane_.material(), use_, page_); };
     addAll(*this, {&new_, &edit_, &name_});
-    addChildComponent(count_);
-    addChildComponent(way_);
+    addHidden(*this, {&count_, &way_});
 }
 
 MaterialPalette::~MaterialPalette() = default;
@@ -479,8 +450,8 @@ void MaterialPalette::show() {
         shown_ = materials;
         swatches_.clear();
         for (int i = 0; i < static_cast<int>(materials.size()); ++i) {
-            auto& swatch = *swatches_.emplace_back(std::make_unique<MaterialSwatch>(
-                materials[static_cast<std::size_t>(i)], palette::material(materials, i)));
+            auto& swatch = *swatches_.emplace_back(
+                std::make_unique<MaterialSwatch>(nth(materials, i), palette::material(materials, i)));
             swatch.onClick = [this, i] { use_(i); };
             swatch.onEdit = [this, i](MaterialSwatch& from, bool isMenu) {
                 editMaterial(from, isMenu, model_, i, use_, page_);
@@ -494,17 +465,16 @@ void MaterialPalette::show() {
     if (areOther || surfaces_ != surfacesOf(scene)) {
         surfaces_ = surfacesOf(scene);
         for (int i = 0; i < static_cast<int>(swatches_.size()); ++i)
-            swatches_[static_cast<std::size_t>(i)]->setWhy(whyNotFelt(scene, i));
+            nth(swatches_, i)->setWhy(whyNotFelt(scene, i));
         resized();
     }
     count_.setSelectedId(pane_.rainCount(), juce::dontSendNotification);
     way_.setSelectedItemIndex(
         static_cast<int>(std::ranges::find(rainPatterns, pane_.rainPattern()) - rainPatterns.begin()),
         juce::dontSendNotification);
-    count_.setVisible(pane_.tool() == DrawTool::rain);
-    way_.setVisible(pane_.tool() == DrawTool::rain);
+    physvib::setVisible({&count_, &way_}, pane_.tool() == DrawTool::rain);
     for (int i = 0; i < static_cast<int>(swatches_.size()); ++i) {
-        auto& swatch = *swatches_[static_cast<std::size_t>(i)];
+        auto& swatch = *nth(swatches_, i);
         swatch.setToggleState(i == pane_.material(), juce::dontSendNotification);
         if (i == pane_.material()) name_.setText(swatch.getName(), juce::dontSendNotification);
     }

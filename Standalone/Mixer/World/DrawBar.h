@@ -3,10 +3,8 @@
 #pragma once
 #include "Mixer/Widgets/Parts.h"
 #include "Mixer/World/DrawPane.h"
-#include <memory>
 #include <set>
 #include <tuple>
-#include <vector>
 
 namespace physvib {
 
@@ -71,7 +69,9 @@ public:
     BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page);
     ~BodyPanel() override;
     void show();
-    void paint(juce::Graphics& g) override;
+    void paint(juce::Graphics& g) override {
+        fillRound(g, *this, Shade::raised, getLocalBounds().toFloat(), 8.0f);
+    }
     void resized() override { flow(getWidth(), true); }
     int heightFor(int width) { return flow(width, false); }
     static constexpr int wide = 216; ///< beside the field; else as wide as that, in few lines
@@ -79,7 +79,9 @@ public:
 private:
     static constexpr int edge = 4, rowHigh = 26;
     int flow(int width, bool places); ///< in lines, as words are; its height
-    void edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit);
+    void edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit) {
+        model_.reportFault(actions ? model_.world().edit(name, actions.value, continuesEdit) : actions.error);
+    }
 
     MixerModel& model_;
     DrawPane& pane_;

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing tools, selection and mouse input.
 #include "Mixer/World/DrawPane.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Widgets/Parts.h"
 #include "Pictures/ShapeOutline.h"
-#include "Scene/Drawing/BodyEdits.h"
 #include "Scene/Drawing/BodyMotion.h"
 #include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 
@@ -20,12 +16,17 @@ int usualMaterial(const Scene& scene, DrawTool tool) {
     if (tool != DrawTool::wall && tool != DrawTool::line && tool != DrawTool::conveyor)
         for (auto body = scene.bodies.rbegin(); body != scene.bodies.rend(); ++body) {
             const int material = body->fixtures[0].material;
-            if (body->type == BodyType::dynamicBody &&
-                sounds(scene.materials[static_cast<std::size_t>(material)]))
+            if (body->type == BodyType::dynamicBody && sounds(nth(scene.materials, material)))
                 return material;
         }
     return static_cast<int>(std::ranges::find_if(scene.materials, sounds) - scene.materials.begin());
 }
+
+double between(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
+
+constexpr float handlePixels = 9.0f;
+
+double angleOf(const Vector& from, const Vector& to) { return std::atan2(to.y - from.y, to.x - from.x); }
 
 } // namespace
 
@@ -65,9 +66,7 @@ void DrawPane::setMaterial(int material) {
 
 void DrawPane::giveMaterial(int material) {
     changeChosen("Material", [material](const Scene& scene, BodyDescription& body) {
-        const auto vibrates = [&scene](int m) {
-            return scene.materials[static_cast<std::size_t>(m)].frequencyHz > 0.0;
-        };
+        const auto vibrates = [&scene](int m) { return nth(scene.materials, m).frequencyHz > 0.0; };
         if (!vibrates(material)) // of which nothing is felt
             setSource(scene, body, false);
         else if (!vibrates(body.fixtures[0].material) && startsAsSource(body)) // as if it were drawn now
@@ -133,11 +132,6 @@ void DrawPane::edit(const juce::String& name, std::vector<Action> actions, bool 
     if (const auto fault = model_.world().edit(name, std::move(actions), continuesEdit); !fault.empty())
         model_.report(name + ": " + utf8(fault));
 }
-
-double DrawPane::grid() const {
-    return snaps_ ? model_.world().scene().fieldHeightMetres / gridsPerField : 0.0;
-}
-Vector DrawPane::at(const juce::MouseEvent& e) const { return snapped(view_.metresAt(e.position), grid()); }
 
 std::optional<BodyPlace> DrawPane::placeNow(const std::string& name) const {
     const auto seen = view_.poseOfBody(name);
@@ -217,12 +211,6 @@ void DrawPane::mouseDoubleClick(const juce::MouseEvent&) {
     if (tool_ == DrawTool::polygon) closePolygon();
 }
 
-namespace {
-
-double between(const Vector& a, const Vector& b) { return std::hypot(b.x - a.x, b.y - a.y); }
-
-} // namespace
-
 Result<BodyDescription> DrawPane::drawnNow() const {
     const double height = model_.world().scene().fieldHeightMetres, size = 0.06 * height;
     const Vector from = stroke_.empty() ? to_ : stroke_[0];
@@ -260,8 +248,7 @@ Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
 
 // A wall whose surface runs the way of the drag; a click gives one to the right.
 Result<BodyDescription> DrawPane::beltNow() const {
-    constexpr double thickShare = 0.05, speedShare = 0.8; // of the field's height, in a second; a ball that
-                                                          // rolls gets a third
+    constexpr double thickShare = 0.05, speedShare = 0.8; // of the field's height, in a second
     const double height = model_.world().scene().fieldHeightMetres, thick = thickShare * height;
     const Vector from = stroke_.empty() ? to_ : stroke_[0];
     const bool isClick = between(from, to_) < thick;
@@ -288,7 +275,7 @@ bool DrawPane::prepare(std::vector<BodyDescription>& bodies) {
         return model_.report("The scene has no materials to draw with"), false;
     const auto names =
         drawing().freeNames(juce::String{wordsOf(tool_).name}.toLowerCase().toStdString(), bodies.size());
-    const bool sounds = drawing().drawn().materials[static_cast<std::size_t>(material_)].frequencyHz > 0.0;
+    const bool sounds = nth(drawing().drawn().materials, material_).frequencyHz > 0.0;
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         bodies[k].name = names[k];
         for (auto& fixture : bodies[k].fixtures) fixture.material = material_;
@@ -423,14 +410,6 @@ void DrawPane::join() {
     edit(wordsOf(tool_).name, std::move(actions));
 }
 
-namespace {
-
-constexpr float handlePixels = 9.0f;
-
-double angleOf(const Vector& from, const Vector& to) { return std::atan2(to.y - from.y, to.x - from.x); }
-
-} // namespace
-
 juce::Rectangle<float> DrawPane::chosenArea() const {
     juce::Rectangle<float> area;
     for (const std::string& name : chosen_) {
@@ -540,8 +519,6 @@ void DrawPane::pasteAt(Vector place) {
     const Vector& from = copied_.bodies.front().positionMetres;
     paste(copied_, {place.x - from.x, place.y - from.y});
 }
-
-void DrawPane::copy(const std::vector<std::string>& names) { copied_ = copied(drawing(), names); }
 
 // What the script moves goes with that of the script: the world begins anew.
 void DrawPane::eraseAll(const std::vector<std::string>& names, bool continuesEdit) {
@@ -732,8 +709,7 @@ void DrawPane::paint(juce::Graphics& g) {
     drawBelts(g);
     drawJoints(g);
     if (drawing().drawn().bodies.empty() && !isDrawing_) {
-        g.setColour(shade(*this, Shade::muted));
-        g.setFont(text::font(text::medium));
+        ink(g, *this, Shade::muted, text::medium);
         g.drawText("Nothing is here yet: choose a tool, or press B and draw a ball",
                    juce::Rectangle<float>{view_.placeOfShare({0.0, 1.0}), view_.placeOfShare({1.0, 0.0})},
                    juce::Justification::centred, true);

@@ -2,13 +2,8 @@
 // Drawing layer over the view of the world: selection, handles, and shapes being drawn.
 #pragma once
 #include "Host/Views/WorldView.h"
-#include "Mixer/Model/MixerModel.h"
 #include "Mixer/World/DrawTools.h"
-#include "Mixer/World/Rain.h"
 #include "Scene/Drawing/BodyEdits.h"
-#include <array>
-#include <juce_gui_basics/juce_gui_basics.h>
-#include <optional>
 
 namespace physvib {
 
@@ -51,7 +46,7 @@ public:
     // Menu commands, at places in metres of the field.
     void addAt(DrawTool tool, Vector place); ///< a body of the usual size
     void joinAt(DrawTool tool, Vector place);
-    void copy(const std::vector<std::string>& names);
+    void copy(const std::vector<std::string>& names) { copied_ = copied(drawing(), names); }
     bool hasCopy() const noexcept { return !copied_.bodies.empty(); }
     void pasteAt(Vector place);
     void eraseAll(const std::vector<std::string>& names, bool continuesEdit = false);
@@ -83,8 +78,8 @@ private:
         juce::Point<float> turn, centre;
     };
     const SceneDrawing& drawing() const noexcept { return model_.world().drawing(); }
-    Vector at(const juce::MouseEvent& e) const;
-    double grid() const;
+    Vector at(const juce::MouseEvent& e) const { return snapped(view_.metresAt(e.position), grid()); }
+    double grid() const { return snaps_ ? model_.world().scene().fieldHeightMetres / gridsPerField : 0.0; }
     bool isBeside(juce::Point<float> place) const;
     std::optional<Handles> handles() const;
     BodyDescription sizedNow() const;

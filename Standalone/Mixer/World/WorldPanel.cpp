@@ -2,21 +2,15 @@
 // What hands do in the world becomes inputs of the session.
 #include "Mixer/World/WorldPanel.h"
 #include "Core/NameNumbers.h"
-#include "Mixer/Model/MixerMessages.h"
 #include "Scene/SceneEdits.h"
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 
 namespace physvib {
 namespace {
 
-constexpr double shownMs = 900.0;    // a sentence stays at least so long, unless a stronger hit comes
-constexpr double handMs = 10.0;      // between inputs of a hand that holds; mice tell of themselves up to a
-                                     // thousand times a second
-constexpr double handSeconds = 0.02; // for each way: the next input comes before it has ended, and the hand
-                                     // does not stop between
+constexpr double shownMs = 900.0; // a sentence stays at least so long, unless a stronger hit comes
+constexpr double handMs = 10.0;   // between inputs of a hand that holds; mice tell a thousand times a second
+constexpr double handSeconds = 0.02; // of each way: the next input comes before, and nothing stops between
 // pixels of the panel; else there is no room for what the tab says as well, and for a knob beside the master
 constexpr int lawNeeds = 700, masterNeeds = 260, knobNeeds = 820, foot = 42; // the row of words
 const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
@@ -25,6 +19,8 @@ const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
 juce::String strengthWords(double g) {
     return g < 0.02 ? "hardly felt" : g < 0.1 ? "felt softly" : g < 0.4 ? "felt" : "felt strongly";
 }
+
+constexpr double stepSeconds = 0.01; // one step of the world; parts start and end at steps
 
 } // namespace
 
@@ -52,10 +48,10 @@ WorldPanel::WorldPanel(MixerModel& model)
     };
     view_.onMove = [this](int enchanter, FieldShare to) {
         model_.change(
-            "Move " + utf8(model_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label),
+            "Move " + labelOf(model_.mix(), enchanter),
             [&](Mix& mix) {
                 auto& layout = mix.layout.geometry;
-                auto& place = layout.places[static_cast<std::size_t>(enchanter)]; // depth and part stay
+                auto& place = nth(layout.places, enchanter); // depth and part stay
                 place.xMetres = to.x * layout.extentWidthMetres;
                 place.yMetres = to.y * layout.extentHeightMetres;
                 mix.layout.name = "own";
@@ -63,7 +59,10 @@ WorldPanel::WorldPanel(MixerModel& model)
             std::exchange(isMoving_, true));
     };
     view_.addMouseListener(this, false);
-    view_.onMenu = pane_.onMenu = [this](juce::Point<float> place) { showMenu(place); };
+    view_.onMenu = pane_.onMenu = [this](juce::Point<float> place) {
+        menuAt(place).showMenuAsync(
+            juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
+    };
     sentence_.setTitle("Strongest hit");
     sentence_.setFont(text::font(text::medium));
     law_.setBorderSize({0, 0, 0, 6});
@@ -95,10 +94,7 @@ WorldPanel::WorldPanel(MixerModel& model)
     compare_.onClick = [this] { ab_.toggle(); };
     addAll(*this,
            {&view_, &pane_, &bar_, &sentence_, &law_, &compare_, &tilt_, &tiltName_, &drag_, &dragName_});
-    addChildComponent(master_);
-    addChildComponent(palette_);
-    addChildComponent(body_);
-    addChildComponent(script_);
+    addHidden(*this, {&master_, &palette_, &body_, &script_});
     pane_.onChange = [this] { showTools(); };
     mixChanged();
 }
@@ -219,8 +215,7 @@ juce::Rectangle<int> WorldPanel::bannerArea() const {
 void WorldPanel::setShow(bool isShow) {
     isShow_ = isShow;
     if (isShow) pane_.use(DrawTool::hand);
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&bar_, &sentence_, &tilt_, &tiltName_})
-        c->setVisible(!isShow);
+    physvib::setVisible({&bar_, &sentence_, &tilt_, &tiltName_}, !isShow);
     showTools();
     resized();
 }
@@ -268,11 +263,10 @@ bool WorldPanel::keyStateChanged(bool isDown) {
     return play(player_->steer(0)), false;
 }
 
-void WorldPanel::mouseDrag(const juce::MouseEvent& e) {
+/// Place on the field of a pixel of the view, m.
+double WorldPanel::metresAt(float x) const {
     const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x;
-    if (player_ && player_->moves() && e.eventComponent == &view_ && !view_.isHolding())
-        pointed_ = model_.world().scene().fieldWidthMetres *
-                   static_cast<double>((e.position.x - left) / (right - left));
+    return model_.world().scene().fieldWidthMetres * static_cast<double>((x - left) / (right - left));
 }
 
 void WorldPanel::mouseUp(const juce::MouseEvent&) {
@@ -287,30 +281,21 @@ void WorldPanel::cancelDrag() {
     if (std::exchange(pointed_, {}) && player_) play(player_->steer(0));
 }
 
-std::optional<double> WorldPanel::playersPlace() {
-    const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x,
-                at = view_.placeOfBody(player_->body()).x;
-    return at < -1e3f ? std::nullopt
-                      : std::optional{model_.world().scene().fieldWidthMetres *
-                                      static_cast<double>((at - left) / (right - left))};
-}
-
 void WorldPanel::lookAfterPlayer() {
     if (!player_) return;
     // the world has begun anew
     if (!first_.empty() && model_.saved().log.takes.size() > runsBefore_) play(std::exchange(first_, {}));
     if (!player_->moves()) return;
-    const auto place = playersPlace();
-    if (!place) return;
-    if (pointed_) play(player_->moveTowards(*pointed_, *place));
-    for (const Action& action : player_->keepInside(*place)) model_.world().act(action);
+    const float at = view_.placeOfBody(player_->body()).x;
+    if (at < -1e3f) return;
+    if (pointed_) play(player_->moveTowards(*pointed_, metresAt(at)));
+    for (const Action& action : player_->keepInside(metresAt(at))) model_.world().act(action);
 }
 
 void WorldPanel::pull(const std::string& body, Vector screenMetres, Vector point) {
     const double push = model_.mix().dragNewtonSecondsPerScreenMetre;
-    const auto fault =
-        model_.world().act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point});
-    if (!fault.empty()) model_.report(utf8(fault));
+    model_.reportFault(
+        model_.world().act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point}));
 }
 
 void WorldPanel::hold(const std::string& body, Vector point, Vector to) {
@@ -320,8 +305,7 @@ void WorldPanel::hold(const std::string& body, Vector point, Vector to) {
 
 void WorldPanel::letGo(const std::string& body) {
     hand_.reset();
-    if (const auto fault = model_.world().act(GripAction{body, {}, {}}); !fault.empty())
-        model_.report(utf8(fault));
+    model_.reportFault(model_.world().act(GripAction{body, {}, {}}));
 }
 
 void WorldPanel::moveHand() {
@@ -364,8 +348,6 @@ juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     return lines.size() <= 2 ? lines.joinIntoString("\n") : juce::String{};
 }
 
-juce::String WorldPanel::whyMuted() const { return model_.isSilent() ? "silent" : whySilent(model_); }
-
 /// Empty: something is felt, or may be at once.
 juce::String WorldPanel::whyNothing(double nowMs, bool isRunning) const {
     constexpr double quietMs = 4000.0;
@@ -399,7 +381,7 @@ void WorldPanel::showSentence() {
 }
 
 void WorldPanel::refresh(const MixerMoment& moment) {
-    const double now = juce::Time::getMillisecondCounterHiRes();
+    const double now = nowMs();
     if (std::exchange(hitScene_, model_.mix().scene) != model_.mix().scene) shownHit_ = {}, hitAtMs_ = now;
     bool isOther = false;
     for (const auto& hit : moment.hits)
@@ -420,20 +402,13 @@ void WorldPanel::refresh(const MixerMoment& moment) {
                   std::span{peaks}.first(static_cast<std::size_t>(model_.mix().count())), isFelt});
 }
 
-void WorldPanel::edit(const juce::String& name, const Action& action) {
-    model_.reportFault(model_.world().edit(name, action));
-}
-
-void WorldPanel::paint(juce::Graphics& g) { drawPanel(g, *this); }
-
 void WorldPanel::resized() {
     auto row = getLocalBounds().reduced(panelInset, 0).removeFromBottom(foot).withTrimmedBottom(5);
     const bool isEngineer = !isShow_ && !isPlay_;
     law_.setVisible(isEngineer && getWidth() >= lawNeeds + (hasMaster_ ? masterNeeds : 0));
     compare_.setVisible(isEngineer);
     master_.setVisible(!isShow_ && hasMaster_);
-    for (juce::Component* c : std::initializer_list<juce::Component*>{&drag_, &dragName_})
-        c->setVisible(isEngineer && (!hasMaster_ || getWidth() >= knobNeeds));
+    physvib::setVisible({&drag_, &dragName_}, isEngineer && (!hasMaster_ || getWidth() >= knobNeeds));
     if (hasMaster_) {
         master_.setBounds(row.removeFromRight(getWidth() >= knobNeeds ? masterNeeds : 200));
         row.removeFromRight(gap);
@@ -475,18 +450,11 @@ juce::PopupMenu WorldPanel::menuAt(juce::Point<float> place) {
     return menu;
 }
 
-void WorldPanel::showMenu(juce::Point<float> place) {
-    menuAt(place).showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(view_).withMousePosition());
-}
-
 void WorldPanel::addActuatorItems(juce::PopupMenu& menu, int enchanter) {
-    menu.addSectionHeader("Actuator " +
-                          utf8(model_.mix().layout.enchanters[static_cast<std::size_t>(enchanter)].label));
+    menu.addSectionHeader("Actuator " + labelOf(model_.mix(), enchanter));
     menu.addItem("Test pulse", [this, enchanter] { model_.strikes().testPulse(enchanter); });
     menu.addItem("Sweep", [this, enchanter] { model_.strikes().testSweep(enchanter); });
-    const auto isMuted = [enchanter](auto& mix) -> auto& {
-        return mix.strips[static_cast<std::size_t>(enchanter)].isMuted;
-    };
+    const auto isMuted = [enchanter](auto& mix) -> auto& { return nth(mix.strips, enchanter).isMuted; };
     menu.addItem("Mute", true, isMuted(model_.mix()),
                  [this, isMuted] { model_.change("Mute", [&](Mix& mix) { isMuted(mix) = !isMuted(mix); }); });
     menu.addItem("Output" + dots(), onOutput != nullptr, false, [this, enchanter] { onOutput(enchanter); });
@@ -503,22 +471,21 @@ void WorldPanel::addBodyItems(juce::PopupMenu& menu, const std::string& body, Ve
     const auto* drawn = model_.world().drawing().find(body);
     const bool isDrawn = drawn != nullptr, moves = isDrawn && drawn->type == BodyType::dynamicBody;
     for (int i = 0; i < static_cast<int>(scene.materials.size()); ++i)
-        materials.addItem(utf8(scene.materials[static_cast<std::size_t>(i)].name), true,
+        materials.addItem(utf8(nth(scene.materials, i).name), true,
                           isDrawn && drawn->fixtures[0].material == i, [this, body, i] {
-                              edit("Material of " + utf8(body), MaterialAction{body, everyFixture, i});
+                              model_.reportFault(model_.world().edit("Material of " + utf8(body),
+                                                                     MaterialAction{body, everyFixture, i}));
                           });
     menu.addSectionHeader(utf8(body));
     menu.addSubMenu("Material", materials);
-    menu.addItem("Select", isDrawn, false,
-                 [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
+    const auto choose = [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); };
+    menu.addItem("Select", isDrawn, false, choose);
     if (isDrawn && motorOf(scene, body) != nullptr)
-        menu.addItem("Motor: speed and torque",
-                     [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
+        menu.addItem("Motor: speed and torque", choose);
     else
         menu.addItem("Motor here", moves, false, [this, place] { pane_.joinAt(DrawTool::motor, place); });
     if (isDrawn && springOf(scene, body) != nullptr)
-        menu.addItem("Spring: stiffness",
-                     [this, body] { pane_.use(DrawTool::choose), pane_.choose({body}); });
+        menu.addItem("Spring: stiffness", choose);
     else
         menu.addItem("Spring here", moves, false, [this, place] { pane_.joinAt(DrawTool::spring, place); });
     menu.addItem("Pin here", moves, false, [this, place] { pane_.joinAt(DrawTool::pin, place); });
@@ -536,16 +503,6 @@ void WorldPanel::addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector plac
     menu.addItem("Attach an actuator here", model_.mix().count() < limits::maxEnchanters, false,
                  [this, at] { model_.attach(at.x, at.y); });
 }
-
-namespace {
-
-constexpr double stepSeconds = 0.01; // one step of the world; parts start and end at steps
-
-juce::String countOf(std::size_t inputs) {
-    return juce::String{static_cast<int>(inputs)} + (inputs == 1 ? " input" : " inputs");
-}
-
-} // namespace
 
 ScriptStrip::ScriptStrip(MixerModel& model)
     : model_{model} {
@@ -579,9 +536,7 @@ ScriptStrip::ScriptStrip(MixerModel& model)
         closed_ = model_.mix().scene;
         setVisible(false);
     };
-    for (juce::Component* c :
-         std::initializer_list<juce::Component*>{&words_, &from_, &to_, &repeats_, &end_, &again_, &close_})
-        addChildComponent(c);
+    addHidden(*this, {&words_, &from_, &to_, &repeats_, &end_, &again_, &close_});
     setSize(400, high);
 }
 
@@ -596,10 +551,10 @@ void ScriptStrip::refresh(bool isHand) {
     const auto dot = "  " + juce::String::charToString(0x00b7) + "  ";
     if (script.isRecording())
         words_.setText("Recording hands" + dot + number(script.seconds(), 1) + " s" + dot +
-                           countOf(script.inputs()),
+                           countOf(script.inputs(), "input"),
                        juce::dontSendNotification);
     else
-        words_.setText("Script of hands" + dot + countOf(hands->inputs.size()) + " in " +
+        words_.setText("Script of hands" + dot + countOf(hands->inputs.size(), "input") + " in " +
                            number(hands->lengthSeconds, 2) + " s",
                        juce::dontSendNotification);
     words_.setColour(juce::Label::textColourId,
@@ -611,9 +566,7 @@ void ScriptStrip::show() {
     setSize(getWidth(), isRecording ? recordingHigh : high);
     words_.setVisible(true);
     end_.setVisible(isRecording);
-    for (juce::Component* c :
-         std::initializer_list<juce::Component*>{&from_, &to_, &repeats_, &again_, &close_})
-        c->setVisible(!isRecording);
+    physvib::setVisible({&from_, &to_, &repeats_, &again_, &close_}, !isRecording);
     if (const HandScript* hands = model_.script().hands()) {
         const ScriptTrim trim = model_.script().trim();
         for (auto* slider : {&from_, &to_})
@@ -634,10 +587,6 @@ void ScriptStrip::use() {
     repaint();
 }
 
-juce::Rectangle<int> ScriptStrip::lane() const {
-    return getLocalBounds().reduced(12, 8).removeFromBottom(22);
-}
-
 float ScriptStrip::placeOf(double seconds) const {
     const auto at = lane().toFloat();
     return at.getX() +
@@ -645,13 +594,11 @@ float ScriptStrip::placeOf(double seconds) const {
 }
 
 void ScriptStrip::paint(juce::Graphics& g) {
-    g.setColour(shade(*this, Shade::raised).withAlpha(0.96f));
-    g.fillRoundedRectangle(getLocalBounds().toFloat(), 8.0f);
+    fillRound(g, *this, Shade::raised, getLocalBounds().toFloat(), 8.0f, 0.96f);
     const HandScript* hands = model_.script().hands();
     if (hands == nullptr) return;
     const auto at = lane().toFloat();
-    g.setColour(shade(*this, Shade::well));
-    g.fillRoundedRectangle(at, 4.0f);
+    fillRound(g, *this, Shade::well, at, 4.0f);
     const float from = placeOf(from_.getValue()), to = placeOf(to_.getValue());
     g.setColour(shade(*this, Shade::accent).withAlpha(0.18f));
     g.fillRect(at.withLeft(from).withRight(to));

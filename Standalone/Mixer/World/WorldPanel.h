@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Panel of the world with its controls: the strongest impact in words, tilt, drag strength, panning law.
 #pragma once
-#include "Host/Views/WorldView.h"
-#include "Mixer/Model/MixerModel.h"
-#include "Mixer/Model/MixerWorld.h"
-#include "Mixer/Widgets/MasterStrip.h"
-#include "Mixer/Widgets/Parts.h"
 #include "Mixer/World/DrawBar.h"
 #include "Scene/World/ScenePlayer.h"
-#include <optional>
 
 namespace physvib {
 
@@ -27,7 +21,7 @@ public:
     void resized() override;
 
 private:
-    juce::Rectangle<int> lane() const;
+    juce::Rectangle<int> lane() const { return getLocalBounds().reduced(12, 8).removeFromBottom(22); }
     float placeOf(double seconds) const;
     void show();
     void use();
@@ -75,9 +69,12 @@ public:
     bool keyPressed(const juce::KeyPress& key) override;
     bool keyStateChanged(bool isDown) override;
     void mouseDown(const juce::MouseEvent&) override { isMoving_ = false; }
-    void mouseDrag(const juce::MouseEvent& e) override;
+    void mouseDrag(const juce::MouseEvent& e) override {
+        if (player_ && player_->moves() && e.eventComponent == &view_ && !view_.isHolding())
+            pointed_ = metresAt(e.position.x);
+    }
     void mouseUp(const juce::MouseEvent&) override;
-    void paint(juce::Graphics& g) override;
+    void paint(juce::Graphics& g) override { drawPanel(g, *this); }
     void resized() override;
 
 private:
@@ -85,20 +82,18 @@ private:
     void hold(const std::string& body, Vector point, Vector to);
     void letGo(const std::string& body);
     void moveHand();
-    void showMenu(juce::Point<float> place);
     void addActuatorItems(juce::PopupMenu& menu, int enchanter);
     void addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place);
     void addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector place);
     void placeInspector();
     juce::Rectangle<int> withinField(int wide, int high) const;
     void showTools();
-    void edit(const juce::String& name, const Action& action);
     void play(const std::vector<Action>& actions);
     void lookAfterPlayer();
-    std::optional<double> playersPlace();
+    double metresAt(float x) const;
     juce::String sentenceOn(const CollisionEvent& hit) const;
     juce::String inLines(const juce::StringArray& parts) const;
-    juce::String whyMuted() const;
+    juce::String whyMuted() const { return model_.isSilent() ? "silent" : whySilent(model_); }
     juce::String whyNothing(double nowMs, bool isRunning) const;
     void showSentence();
 
