@@ -3,7 +3,7 @@
 #include "Calls/RenderOptions.h"
 #include "CommandLine/Command.h"
 #include "Core/Units.h"
-#include "Live/Devices/AudioOutputSettings.h"
+#include "Live/Devices/OutputMap.h"
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/BoardOutput.h"
 #include "Scene/EventsCsv.h"

@@ -4,7 +4,6 @@
 #pragma once
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Documents/Mix.h"
-#include "Live/Documents/Strip.h"
 #include "Live/Rig/Rig.h"
 #include "Mixer/Model/MixerSignals.h"
 #include "Scene/LayoutFile.h"

@@ -6,7 +6,6 @@
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Devices/DeviceMeters.h"
 #include "Live/Devices/SinkTable.h"
-#include "Live/Devices/Taps.h"
 #include "Live/Session/SessionSetup.h"
 #include "Pictures/WaveformEnvelope.h"
 #include <algorithm>

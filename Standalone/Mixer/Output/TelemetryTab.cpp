@@ -2,7 +2,7 @@
 // Formats counters of session and device; amber marks losses.
 #include "Mixer/Output/TelemetryTab.h"
 #include "Core/Units.h"
-#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/AudioDevice.h"
 #include <algorithm>
 #include <numeric>
 

@@ -3,7 +3,7 @@
 // only the trial's stimuli play. Master level, ceilings, outputs and the silence button stay unchanged.
 #pragma once
 #include "Host/Views/WorldView.h"
-#include "Live/Devices/SimulationDriver.h"
+#include "Live/Rig/Rig.h"
 #include "Live/Session/SessionJournal.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Mixer/Widgets/Parts.h"

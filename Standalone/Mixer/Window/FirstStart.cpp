@@ -4,7 +4,6 @@
 #include "Mixer/Window/FirstStart.h"
 #include "Core/Limits.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/NoDevice.h"
 #include "Mixer/Model/MixerDevice.h"
 #include <algorithm>
 #include <optional>

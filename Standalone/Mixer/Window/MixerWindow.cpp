@@ -6,7 +6,6 @@
 #include "Host/Views/WorldView.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/NoDevice.h"
 #include "Live/Recordings/Recording.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/PageLink.h"

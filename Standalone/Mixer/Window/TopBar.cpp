@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls and status text of the top bar.
 #include "Mixer/Window/TopBar.h"
-#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Scene/SceneFile.h"
 
 namespace physvib {
