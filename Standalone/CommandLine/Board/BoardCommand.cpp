@@ -8,6 +8,7 @@
 #include "Live/Session/BoardOutput.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/FieldSize.h"
+#include "Scene/LayoutFile.h"
 #include "Scene/SilentWords.h"
 #include "System/ExitCode.h"
 #include "System/Interrupt.h"
