@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What sessions ask of Windows: threads, pseudo-terminals, libraries.
 #if defined(_WIN32)
-#include "Io/Disk/SystemWindows.h"
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/System.h"
+
+#include "Io/Disk/SystemWindows.h" // last: its macros are for nobody else
 
 namespace physvib {
 
