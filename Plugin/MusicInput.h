@@ -6,10 +6,8 @@
 #include "Core/EnchanterLayout.h"
 #include "Core/Limits.h"
 #include "Core/Nonblocking.h"
-#include "Host/Music/BandPass.h"
 #include "Host/Music/BeatDetector.h"
-#include "Host/Music/BeatStrikes.h"
-#include "Live/Session/CallbackInputs.h"
+#include "Live/Session/Scheduler.h"
 #include <array>
 #include <cmath>
 #include <cstdint>

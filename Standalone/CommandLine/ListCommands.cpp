@@ -3,7 +3,7 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/DeviceList.h"
 #include "Io/Text/NumberText.h"
-#include "Live/Session/SerialLine.h"
+#include "Live/Session/BoardLink.h"
 #include "Scene/ActuatorFile.h"
 #include "Scene/SceneFile.h"
 

@@ -2,7 +2,7 @@
 // Main program of `physvib`: list of commands, and error messages for invalid calls.
 #include "Calls/CallFiles.h"
 #include "CommandLine/Command.h"
-#include "Live/Devices/DeviceThread.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Options/Parser.h"
 #include "Options/Reference.h"
 #include "System/Process.h"

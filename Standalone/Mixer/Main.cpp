@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Main program of the application `physvib-mixer`.
 #include "Host/Devices/HostDrivers.h"
-#include "Live/Devices/DeviceThread.h"
-#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Options/Reference.h"

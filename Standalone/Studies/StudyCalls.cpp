@@ -8,7 +8,7 @@
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/Stimulus.h"
 #include "Lab/Study/StudyRun.h"
-#include "Live/Session/StimulusRender.h"
+#include "Live/Session/SessionRender.h"
 #include "Options/Parser.h"
 #include "Scene/EventsCsv.h"
 #include <algorithm>

@@ -16,7 +16,7 @@
 #include "Lab/Study/StudyPlan.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
-#include "Live/Session/StimulusRender.h"
+#include "Live/Session/SessionRender.h"
 #include "Scene/LayoutFile.h"
 #include "Studies/StudyCalls.h"
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "Live/Session/BoardOutput.h"
 #include "Host/FakeAudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
-#include "Live/Devices/SimulationDriver.h"
+#include "Live/Rig/Rig.h"
 #include "Session/WallsScene.h"
 #include "VirtualBoard.h"
 #include <cmath>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Beats of a song whose onsets are known.
 #include "Host/Music/BeatDetector.h"
-#include "Host/Music/BandPass.h"
-#include "Host/Music/BeatStrikes.h"
 #include "Support/BeatSong.h"
 #include <algorithm>
 #include <gtest/gtest.h>

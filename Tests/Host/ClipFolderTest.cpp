@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a message may have read, and what a saved session says of a clip that has changed.
-#include "Live/Recordings/ClipFolder.h"
 #include "Formats/ClipFile.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/ReadFile.h"
+#include "Live/Recordings/LoadRecordings.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Support/WavBytes.h"
 #include <algorithm>

@@ -2,7 +2,6 @@
 // One rig from its beginning to its end: what it plays, keeps and says.
 #include "Live/Rig/Rig.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/NoDevice.h"
 #include "Live/Documents/SessionFile.h"
 #include "MessageLoop.h"
 #include "Session/FakeHost.h"

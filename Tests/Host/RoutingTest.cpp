@@ -3,7 +3,7 @@
 // contact sounds or marks, and after all others each source plays where it was asked to and nowhere else.
 #include "Live/Devices/DeviceSession.h"
 #include "Live/Devices/OutputMap.h"
-#include "Live/Documents/Strip.h"
+#include "Live/Documents/Mix.h"
 #include "Live/Recordings/HitExport.h"
 #include "Stimuli/SeededRandom.h"
 #include <algorithm>

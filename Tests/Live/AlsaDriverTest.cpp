@@ -3,7 +3,7 @@
 #include "DeviceNoise.h"
 #include "Live/Devices/AlsaDevice.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Session/ThisThread.h"
+#include "Live/Session/System.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

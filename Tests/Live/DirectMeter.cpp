@@ -4,8 +4,8 @@
 // what was played is what the log renders. Usage: physvib-direct-meter MESSAGES
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
-#include "Live/Devices/SimulationDriver.h"
 #include "Live/Messages/MessageRouter.h"
+#include "Live/Rig/Rig.h"
 #include "Live/Session/SessionRender.h"
 #include "MeterClient.h"
 #include "Session/WallsScene.h"

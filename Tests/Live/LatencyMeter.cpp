@@ -5,7 +5,7 @@
 #include "Host/MessageLoop.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
-#include "Live/Devices/SimulationDriver.h"
+#include "Live/Rig/Rig.h"
 #include "MeterClient.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/SceneFile.h"

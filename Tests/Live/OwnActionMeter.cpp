@@ -4,7 +4,7 @@
 // its contact. Usage: physvib-own-action-meter PUSHES
 #include "Live/Devices/AudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
-#include "Live/Devices/SimulationDriver.h"
+#include "Live/Rig/Rig.h"
 #include "MeterClient.h"
 #include "Session/WallsScene.h"
 #include <cstdio>

@@ -3,7 +3,6 @@
 // saved session, and comes back by undo.
 #include "Host/FakeAudioDevice.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/PicoDevice.h"
 #include "Mixer/Materials/MaterialsTab.h"
 #include "Mixer/Model/MixerWorld.h"
 #include "Mixer/Widgets/Cards.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A clock instead of a device.
 #pragma once
-#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/AudioDevice.h"
 
 namespace physvib::test {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The report that gives a DualSense's coils to sound, against what SDL, the Linux driver and public
 // descriptions say of its bytes.
-#include "Live/Pads/DualSense.h"
+#include "Live/Pads/PadReports.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -3,7 +3,7 @@
 // a device of which it follows the clock.
 #pragma once
 #include "Live/Pads/PadOutput.h"
-#include "Live/Pads/SharedLibrary.h"
+#include "Live/Session/System.h"
 #include <atomic>
 #include <chrono>
 #include <mutex>

@@ -3,7 +3,7 @@
 // by themselves, notes of velocity 100 twice a second) at the initial level, the mean square in the band that
 // is felt, 20 to 400 Hz, of each 125 ms on the actuator where it is largest, over the eight strongest. Not
 // the peak: a click and a long note of one peak differ by 15 dB in what is felt.
-#include "Host/Music/BandPass.h"
+#include "Host/Music/BeatDetector.h"
 #include "MusicInput.h"
 #include "PluginTesting.h"
 #include <algorithm>

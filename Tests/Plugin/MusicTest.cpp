@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The side chain's own low frequencies on the actuators: what of them, where, how loud, and the same in
 // blocks of any size.
-#include "Host/Music/BandPass.h"
+#include "Host/Music/BeatDetector.h"
 #include "MusicInput.h"
 #include "SongHost.h"
 #include <cmath>

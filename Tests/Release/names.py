@@ -67,8 +67,8 @@ def rows(kind: str, file: str, pattern: str) -> Iterator[str]:
 
 
 names = {*options(), *fields(), *properties(json.loads(output(programs / "physvib", "study", "schema")), "protocol"),
-         *rows("column", "Source/Scene/EventColumns.h", r'^    \{"(\w+)", \w+Column'), *rows("message", "Source/Live/Messages/MessageTable.h", r'^    \{"(\w+)",'),
-         *rows("argument", "Source/Live/Messages/MessageTable.h", r'MessageArgument(?: \w+)?\{\s*"(\w+)"'),
+         *rows("column", "Source/Scene/EventColumns.h", r'^    \{"(\w+)", \w+Column'), *rows("message", "Source/Live/Messages/MessageRouter.h", r'^    \{"(\w+)",'),
+         *rows("argument", "Source/Live/Messages/MessageRouter.h", r'MessageArgument(?: \w+)?\{\s*"(\w+)"'),
          *rows("parameter", "Plugin/Parameters.h", r'\{Parameter::\w+,\s*"(\w+)"')}
 promised = {f"{kind} {name}" for line in listed.read_text().splitlines() for kind, last in [line.split(": ")] for name in last.split()}
 if "--update" in sys.argv:  # a line per command, structure or kind

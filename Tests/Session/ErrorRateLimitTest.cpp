@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Much nonsense, few words.
-#include "Live/Messages/ErrorRateLimit.h"
+#include "Live/Messages/MessageRouter.h"
 #include <gtest/gtest.h>
 #include <string>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Who asks for silence, and who lifts it.
 #include "Live/Documents/InputLine.h"
-#include "Live/Session/Input.h"
+#include "Live/Messages/MessageRouter.h"
 #include "Live/Session/OutputClock.h"
+#include "Live/Session/Scheduler.h"
 #include <gtest/gtest.h>
 #include <thread>
 

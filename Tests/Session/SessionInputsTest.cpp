@@ -2,7 +2,7 @@
 // Inputs of a session at their limits: what does not fit is refused and counted, what is asked for twice
 // acts once.
 #include "FakeHost.h"
-#include "Live/Documents/Strip.h"
+#include "Live/Documents/Mix.h"
 #include "Live/Session/Session.h"
 #include <gtest/gtest.h>
 

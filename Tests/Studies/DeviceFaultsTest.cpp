@@ -4,7 +4,7 @@
 // asserts holds however slow the machine is: a pause of the test is one more pause of the device. The ways
 // take turns over the moments; with PHYSVIB_FAULT=0..5 it is that one at all of them (every-fault.sh).
 #include "Host/FakeAudioDevice.h"
-#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Participant.h"
 #include "TestPlaces.h"
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "Api/Live/physvib-live.h"
 #include "Core/Units.h"
 #include "Live/Rig/Rig.h"
-#include "Live/Session/ThisThread.h"
+#include "Live/Session/System.h"
 #include <atomic>
 #include <future>
 #include <mutex>

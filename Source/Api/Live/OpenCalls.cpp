@@ -2,8 +2,7 @@
 // Opens and closes a device and its sinks: physvib_live_open, physvib_live_close.
 #include "Api/Live/Lives.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/NoDevice.h"
-#include "Live/Devices/SimulationDriver.h"
+#include "Live/Rig/Rig.h"
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>

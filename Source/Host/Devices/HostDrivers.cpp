@@ -3,7 +3,6 @@
 // linked.
 #include "Host/Devices/HostDrivers.h"
 #if !JUCE_MODULE_AVAILABLE_juce_audio_devices
-#include "Live/Devices/AudioDevice.h"
 
 namespace physvib {
 

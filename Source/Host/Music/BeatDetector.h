@@ -3,15 +3,82 @@
 // picker.
 #pragma once
 #define AUBIO_UNSTABLE 1 // aubio declares its peak picker only with this; its version is the distribution's
-#include "Host/Music/BeatStrikes.h"
+#include "Core/Actuators/ActuatorEqualiser.h"
+#include "Core/CollisionEvent.h"
+#include "Core/EnchanterLayout.h"
+#include "Core/Limits.h"
+#include <algorithm>
 #include <array>
 #include <aubio/aubio.h>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 
 namespace physvib {
+
+// Turns an onset in music into an event on each actuator of its band.
+
+struct BeatBand {
+    std::string_view name;
+    double lowHz = 0.0, highHz = 0.0;
+};
+
+/// Bass drum and bass; melody and body of the snare; cymbals and hi-hats. The gaps between are left out,
+/// because every instrument has energy there.
+inline constexpr std::array<BeatBand, 3> beatBands{
+    {{"low", 30.0, 150.0}, {"mid", 200.0, 2500.0}, {"high", 6000.0, 16000.0}}};
+
+/// An onset in one band.
+struct BandOnset {
+    std::int64_t frame = 0; ///< of the input, from 0
+    int band = 0;           ///< index into beatBands
+    double strength = 0.0;  ///< of the strongest onset of that band in the last seconds; above 0, up to 1
+    bool operator==(const BandOnset&) const = default;
+};
+
+using EnchanterSet = std::bitset<limits::maxEnchanters>;
+
+/// Vibration of the beats, per band.
+struct BeatVoices {
+    static constexpr double usualLevel = 0.5;
+
+    std::array<EnchanterSet, beatBands.size()> enchanters; ///< of each band; none: the band is not felt
+    /// resonance of the thesis' actuator
+    std::array<double, beatBands.size()> frequencyHz{205.0, 205.0, 205.0};
+    std::array<double, beatBands.size()> decayPerSecond{15.0, 30.0, 60.0}; ///< long, short, tick
+    double level = usualLevel; ///< peak of the strongest onset at gain 1, 1 = full scale
+};
+
+/// Low band on the first actuator, high on the last, mid on those between (with two: on the last). Any
+/// thread, R too.
+std::array<EnchanterSet, beatBands.size()> usualBeatEnchanters(int count) noexcept;
+
+/// Parses letters such as "AC"; false if one is not among `count` actuators or occurs twice. Any thread.
+bool parseEnchanters(std::string_view letters, int count, EnchanterSet& enchanters);
+
+/// Calls `strike(const CollisionEvent&)` for each actuator of the onset's band, at `timeNs` and at the
+/// actuator's place in a field of that size. Any thread, R too.
+template <class Strike>
+void strikeBeat(const BandOnset& onset, std::int64_t timeNs, const BeatVoices& voices,
+                const EnchanterLayout& layout, double fieldWidthMetres, double fieldHeightMetres,
+                Strike&& strike) {
+    const auto band = static_cast<std::size_t>(onset.band);
+    for (int j = 0; j < layout.count; ++j) {
+        if (!voices.enchanters[band][static_cast<std::size_t>(j)]) continue;
+        const EnchanterPlace& place = layout.places[static_cast<std::size_t>(j)];
+        CollisionEvent event;
+        event.timeNs = timeNs;
+        event.frequencyHz = voices.frequencyHz[band];
+        event.decayPerSecond = voices.decayPerSecond[band];
+        event.amplitude = voices.level * onset.strength;
+        event.x = place.xMetres / layout.extentWidthMetres * fieldWidthMetres;
+        event.y = place.yMetres / layout.extentHeightMetres * fieldHeightMetres;
+        strike(event);
+    }
+}
 
 /// Owning pointer for objects of the aubio library, which must be freed by aubio's own functions.
 template <auto Free>
@@ -82,6 +149,44 @@ private:
     std::size_t foundCount_ = 0;
     unsigned filled_ = 0; // samples in the current hop
     std::int64_t hops_ = 0;
+};
+
+// Band-pass filter that keeps the band an actuator can render: two Butterworth slopes of fourth order.
+
+/// Causal; its group delay at 200 Hz is 2 ms with the default band. One thread at a time.
+class BandPass {
+public:
+    static constexpr FrequencyBand usual{50.0, 500.0};
+
+    /// The upper cut-off is at most 45 % of the sample rate.
+    BandPass(FrequencyBand band, int sampleRateHz) noexcept {
+        const double highHz = std::min(band.highHz, 0.45 * sampleRateHz),
+                     lowHz = std::min(band.lowHz, 0.5 * highHz);
+        for (std::size_t i = 0; i < qs.size(); ++i) {
+            // low-pass: zeros at half the sample rate; high-pass: zeros at 0 Hz
+            sections_[2 * i] = section(highHz, qs[i], {2.0, 1.0}, 1.0, sampleRateHz);
+            sections_[2 * i + 1] = section(lowHz, qs[i], {-2.0, 1.0}, -1.0, sampleRateHz);
+        }
+    }
+
+    void process(std::span<float> samples) noexcept {
+        for (float& sample : samples) {
+            double y = sample;
+            for (Biquad& section : sections_) y = section.process(y);
+            sample = static_cast<float>(y);
+        }
+    }
+
+private:
+    static constexpr std::array qs{0.54119610014619698, 1.3065629648763766};
+
+    /// A biquad with these zeros and a gain of 1 where z is `unity`.
+    static Biquad section(double hz, double q, RootPair zeros, double unity, double rateHz) noexcept {
+        const RootPair poles = RootPair::bilinear(hz, q, rateHz);
+        return {(poles.at(unity) / zeros.at(unity)).real(), zeros, poles};
+    }
+
+    std::array<Biquad, 4> sections_;
 };
 
 } // namespace physvib

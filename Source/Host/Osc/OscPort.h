@@ -3,9 +3,9 @@
 #pragma once
 #include "Core/RenderControl.h"
 #include "Host/Osc/OscReceiver.h"
-#include "Live/Messages/ErrorRateLimit.h"
-#include "Live/Session/Input.h"
+#include "Live/Messages/MessageRouter.h"
 #include "Live/Session/OutputClock.h"
+#include "Live/Session/Scheduler.h"
 #include "Live/Session/Sink.h"
 #include "Live/Sockets/UdpSocket.h"
 #include <algorithm>

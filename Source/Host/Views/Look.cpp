@@ -3,7 +3,6 @@
 #include "Host/Views/Look.h"
 #include "Core/Limits.h"
 #include <array>
-#include <cmath>
 #include <initializer_list>
 
 namespace physvib {

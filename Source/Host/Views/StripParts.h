@@ -3,7 +3,7 @@
 // along the meter.
 #pragma once
 #include "Host/Views/Look.h"
-#include "Live/Documents/Strip.h"
+#include "Live/Documents/Mix.h"
 #include <functional>
 #include <juce_audio_basics/juce_audio_basics.h>
 

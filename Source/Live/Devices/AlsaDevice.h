@@ -12,26 +12,22 @@ namespace physvib {
 
 // Loads ALSA's library (LGPL) at run time, when devices are first looked for.
 
-// clang-format off: one list, not a staircase
+// One list, not a staircase.
+// clang-format off
 #define PHYSVIB_ALSA_FUNCTIONS(use)                                                                          \
     use(lib_error_set_handler) use(strerror) use(device_name_hint) use(device_name_get_hint)                 \
-        use(device_name_free_hint) use(config_update_ref) use(config_unref) use(config_search) use(          \
-            config_search_definition) use(config_get_string) use(config_delete) use(pcm_open) use(pcm_close) \
-            use(pcm_hw_params_sizeof) use(pcm_hw_params_any) use(pcm_hw_params_get_channels_min) use(        \
-                pcm_hw_params_get_channels_max) use(pcm_hw_params_test_rate) use(pcm_hw_params_test_format)  \
-                use(pcm_hw_params_set_access) use(pcm_hw_params_set_format) use(pcm_hw_params_set_rate_near) \
-                    use(pcm_hw_params_set_channels) use(pcm_hw_params_set_periods_near)                      \
-                        use(pcm_hw_params_set_period_size_near) use(pcm_hw_params)                           \
-                            use(pcm_hw_params_get_buffer_size) use(pcm_hw_params_get_period_size)            \
-                                use(pcm_hw_params_get_periods) use(pcm_sw_params_sizeof)                     \
-                                    use(pcm_sw_params_current) use(pcm_sw_params_get_boundary)               \
-                                        use(pcm_sw_params_set_silence_threshold)                             \
-                                            use(pcm_sw_params_set_silence_size)                              \
-                                                use(pcm_sw_params_set_start_threshold)                       \
-                                                    use(pcm_sw_params_set_stop_threshold) use(pcm_sw_params) \
-                                                        use(pcm_prepare) use(pcm_start) use(pcm_wait)        \
-                                                            use(pcm_avail_update) use(pcm_writei)            \
-                                                                use(pcm_readi) use(pcm_recover)
+    use(device_name_free_hint) use(config_update_ref) use(config_unref) use(config_search)                   \
+    use(config_search_definition) use(config_get_string) use(config_delete) use(pcm_open) use(pcm_close)     \
+    use(pcm_hw_params_sizeof) use(pcm_hw_params_any) use(pcm_hw_params_get_channels_min)                     \
+    use(pcm_hw_params_get_channels_max) use(pcm_hw_params_test_rate) use(pcm_hw_params_test_format)          \
+    use(pcm_hw_params_set_access) use(pcm_hw_params_set_format) use(pcm_hw_params_set_rate_near)             \
+    use(pcm_hw_params_set_channels) use(pcm_hw_params_set_periods_near)                                      \
+    use(pcm_hw_params_set_period_size_near) use(pcm_hw_params) use(pcm_hw_params_get_buffer_size)            \
+    use(pcm_hw_params_get_period_size) use(pcm_hw_params_get_periods) use(pcm_sw_params_sizeof)              \
+    use(pcm_sw_params_current) use(pcm_sw_params_get_boundary) use(pcm_sw_params_set_silence_threshold)      \
+    use(pcm_sw_params_set_silence_size) use(pcm_sw_params_set_start_threshold)                               \
+    use(pcm_sw_params_set_stop_threshold) use(pcm_sw_params) use(pcm_prepare) use(pcm_start) use(pcm_wait)   \
+    use(pcm_avail_update) use(pcm_writei) use(pcm_readi) use(pcm_recover)
 // clang-format on
 
 struct AlsaLibrary {
@@ -141,6 +137,8 @@ private:
         std::vector<float*> buffers;              // of these
         std::string open(const ChannelSet& wanted, const AlsaRange& range, int& rateHz, int& blockFrames);
         void prepare(int blockFrames);
+        template <class Move>
+        void moveEach(Move move) noexcept;
         void split() noexcept; // interleaved samples into channels
         void join() noexcept;  // and back
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Audio devices and their drivers, as this project uses them: the interface between the output and a library
-// of devices.
+// of devices; threads for calls that may hang; the null device; the Pico among the devices.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -13,6 +13,7 @@
 #include <vector>
 
 namespace physvib {
+
 /// Channels of a device, from 0.
 using ChannelSet = std::set<int>;
 
@@ -80,6 +81,10 @@ using AudioDrivers = std::function<std::vector<std::unique_ptr<AudioDriver>>()>;
 
 class UserSlot {
 public:
+    UserSlot() = default;
+    explicit UserSlot(DeviceUser& user) noexcept
+        : user_{&user} {}
+
     /// Blocks go to `user` from now on. M.
     void begin(AudioDevice& device, DeviceUser& user) {
         user.aboutToStart(device);
@@ -89,14 +94,19 @@ public:
     /// Returns the user, if any, when the render thread has left its last block. M.
     DeviceUser* end() noexcept {
         DeviceUser* const user = user_.exchange(nullptr);
-        while (calls_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds{1}); // at most for one block
+        awaitBlock();
         return user;
+    }
+
+    /// Returns when the render thread has left the block it was in, if any. M.
+    void awaitBlock() const noexcept {
+        while (calls_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds{1}); // at most for one block
     }
 
     /// Calls `words` with the user, or with null if nobody has started the device; end() returns after it.
     /// R, wait-free if `words` is.
     template <class Words>
-    void call(const Words& words) noexcept {
+    void call(const Words& words) {
         ++calls_; // sequentially consistent, as user_: either this call sees the end, or end() sees this call
         words(user_.load());
         --calls_;
@@ -155,5 +165,85 @@ const char* layoutFor(int outputs, std::string_view device = {});
 
 /// In the order in which names are searched. M.
 std::vector<std::unique_ptr<AudioDriver>> systemAudioDrivers();
+
+// Thread for calls of an audio driver that may hang; the caller waits for a limited time only.
+
+/// One call at a time. M, except threadsLeft().
+class DeviceThread {
+public:
+    DeviceThread() = default;
+    /// A call that has not finished is abandoned to its thread.
+    ~DeviceThread() { leave(); }
+    DeviceThread(const DeviceThread&) = delete;
+    DeviceThread& operator=(const DeviceThread&) = delete;
+
+    /// Starts `call`, which must own or share everything it uses; the call before has finished.
+    void begin(std::function<void()> call);
+
+    using Clock = std::chrono::steady_clock;
+    /// Whether the call has finished; waits until `end`, or until `hurry` (may be null) is true.
+    bool isOver(Clock::time_point end = {}, const std::atomic<bool>* hurry = nullptr);
+
+    /// Allows another call to start; one that has not finished is abandoned to its thread.
+    void leave();
+
+    /// Number of abandoned calls of this process that are still running. While there are any, a program exits
+    /// without destructors of static objects, which such a thread may still use (endProgram). Any thread.
+    static int threadsLeft() noexcept;
+
+private:
+    struct Call;
+    std::shared_ptr<Call> call_;
+    std::thread thread_;
+};
+
+// Null audio device that asks for blocks by a steady clock and discards them. It lets a world run, be shown
+// and be recorded on a machine without an audio interface.
+
+/// The driver's name; its device is noDeviceName.
+inline constexpr const char* noDeviceType = "None";
+inline constexpr const char* noDeviceName = "no device";
+
+/// A driver with that one device: 64 outputs, 48 kHz and blocks of 512 frames unless set otherwise. M.
+std::unique_ptr<AudioDriver> makeNoDeviceDriver();
+
+/// These drivers and the null driver. M.
+AudioDrivers withNoDevice(AudioDrivers drivers);
+
+// The Raspberry Pi Pico (Docs/pico.md) among the audio devices: an ordinary sound card that is known by its
+// product's name.
+
+/// Finds the first Pico under any driver, as a device's name.
+inline constexpr std::string_view picoDeviceName = "pico";
+
+/// Part of its name as every operating system has it (Firmware/Pico/Usb.cpp); behind it 4 or 8.
+inline constexpr std::string_view picoProduct = "PhysVib pico";
+
+/// From a USB packet to the first of its frames at the pins (Tests/Firmware/pico.sh). No driver reports it.
+inline constexpr double picoLatencySeconds = 0.0028;
+
+inline bool isPico(std::string_view device) {
+    return device == picoDeviceName || device.find(picoProduct) != std::string_view::npos;
+}
+
+/// The Pico among a driver's devices; empty: there is none. ALSA lists parts of a card, too: the card itself
+/// is preferred, because it has all its channels in their order. Any thread.
+inline std::string picoAmong(const std::vector<std::string>& devices) {
+    std::string found;
+    for (const std::string& device : devices) {
+        if (!isPico(device)) continue;
+        if (device.find("Direct hardware device") != std::string::npos) return device;
+        if (found.empty()) found = device;
+    }
+    return found;
+}
+
+/// The layout preset for the Pico with that name: "pico4", "pico8"; empty: the name does not say. Any thread.
+inline std::string picoLayoutOf(std::string_view device) {
+    const auto at = device.find(picoProduct);
+    if (at == std::string_view::npos) return {};
+    const std::string preset{device.substr(at + picoProduct.size() - picoDeviceName.size(), 5)};
+    return preset == "pico4" || preset == "pico8" ? preset : std::string{};
+}
 
 } // namespace physvib

@@ -3,13 +3,11 @@
 // a thread of their own and the caller waits only for a time that it sets.
 #pragma once
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/DeviceThread.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <memory>
 #include <string>
-#include <thread>
 
 namespace physvib {
 
@@ -20,43 +18,33 @@ namespace physvib {
 class DeviceCallback final : public DeviceUser {
 public:
     explicit DeviceCallback(DeviceUser& owner) noexcept
-        : owner_{&owner} {}
+        : owner_{owner} {}
 
     /// Detaches the owner and returns when the render thread has left it. M, not from within a driver's call.
-    void letGo() noexcept {
-        owner_ = nullptr;
-        awaitBlock();
-    }
-
-    /// Returns when the render thread has left the block it was in, if any. M.
-    void awaitBlock() const noexcept {
-        while (calls_ > 0) std::this_thread::sleep_for(std::chrono::milliseconds{1}); // at most for one block
-    }
+    void letGo() noexcept { owner_.end(); }
+    /// See UserSlot.
+    void awaitBlock() const noexcept { owner_.awaitBlock(); }
 
 private:
     void block(const float* const* in, int inputs, float* const* out, int outputs,
                int frames) noexcept override {
-        const bool isHeard = call([&](auto& owner) { owner.block(in, inputs, out, outputs, frames); });
-        for (int k = 0; !isHeard && k < outputs; ++k) std::fill_n(out[k], frames, 0.0f);
+        owner_.call([&](DeviceUser* owner) {
+            if (owner != nullptr) return owner->block(in, inputs, out, outputs, frames);
+            for (int k = 0; k < outputs; ++k) std::fill_n(out[k], frames, 0.0f);
+        });
     }
     void aboutToStart(AudioDevice& device) override {
-        call([&](auto& owner) { owner.aboutToStart(device); });
+        owner_.call([&](DeviceUser* owner) {
+            if (owner != nullptr) owner->aboutToStart(device);
+        });
     }
     void stopped() override {
-        call([](auto& owner) { owner.stopped(); });
+        owner_.call([](DeviceUser* owner) {
+            if (owner != nullptr) owner->stopped();
+        });
     }
 
-    template <class Words>
-    bool call(const Words& words) {
-        ++calls_; // sequentially consistent, as owner_: this call sees the detachment, or letGo() this call
-        auto* const owner = owner_.load();
-        if (owner != nullptr) words(*owner);
-        --calls_;
-        return owner != nullptr;
-    }
-
-    std::atomic<DeviceUser*> owner_;
-    std::atomic<int> calls_{0};
+    UserSlot owner_;
 };
 
 /// Which device to open, and how.

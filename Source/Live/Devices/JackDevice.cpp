@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Plays on the ports of another JACK client.
 #include "Live/Devices/JackDevice.h"
-#include "Live/Pads/SharedLibrary.h"
-#include <algorithm>
-#include <atomic>
+#include "Live/Session/System.h"
 #include <chrono>
 #include <cstdint>
 #include <initializer_list>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 namespace physvib {
@@ -135,34 +134,29 @@ int JackDevice::deviceLatencyFrames() {
 
 namespace {
 
-struct LoadedJack {
+std::optional<JackLibrary> loadJack() {
     JackLibrary jack;
-    bool isWhole = true;
-};
-
-LoadedJack loadJack() {
-    LoadedJack loaded;
     void* library = nullptr;
     for (const char* name : {"libjack.so.0", "libjack64.dll", "libjack.0.dylib"})
         if (library == nullptr) library = openLibrary(name);
-    if (library == nullptr) return {{}, false};
+    bool isWhole = library != nullptr;
 #define PHYSVIB_JACK_FIND(name)                                                                              \
-    loaded.jack.name = reinterpret_cast<decltype(loaded.jack.name)>(functionIn(library, "jack_" #name));     \
-    loaded.isWhole = loaded.isWhole && loaded.jack.name != nullptr;
+    if (isWhole) jack.name = reinterpret_cast<decltype(jack.name)>(functionIn(library, "jack_" #name));      \
+    isWhole = isWhole && jack.name != nullptr;
     PHYSVIB_JACK_FUNCTIONS(PHYSVIB_JACK_FIND)
 #undef PHYSVIB_JACK_FIND
-    if (!loaded.isWhole) return loaded;
+    if (!isWhole) return {};
     // Without a running server, JACK prints five lines to stderr for each query. The caller says it in one.
-    loaded.jack.set_error_function([](const char*) {});
-    loaded.jack.set_info_function([](const char*) {});
-    return loaded;
+    jack.set_error_function([](const char*) {});
+    jack.set_info_function([](const char*) {});
+    return jack;
 }
 
 } // namespace
 
 const JackLibrary* jackLibrary() {
-    static const LoadedJack loaded = loadJack();
-    return loaded.isWhole ? &loaded.jack : nullptr;
+    static const std::optional<JackLibrary> loaded = loadJack();
+    return loaded ? &*loaded : nullptr;
 }
 
 // Opens and closes clients of JACK, one at a time in the process, as JACK's library does itself.

@@ -2,7 +2,7 @@
 // The table of sinks, and the parser of output names such as DEVICE+BOARD:auto.
 #include "Live/Devices/SinkTable.h"
 #include "Core/Limits.h"
-#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Live/Pads/CoilFeed.h"
 #include "Live/Pads/HidOutput.h"
 #include "Live/Pads/PadOutput.h"

@@ -3,7 +3,6 @@
 // other.
 #include "Live/Documents/DocumentJson.h"
 #include "Core/Limits.h"
-#include "Scene/LayoutJson.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <string>

@@ -3,8 +3,6 @@
 #include "Live/Documents/Mix.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/DocumentJson.h"
-#include "Live/Documents/Strip.h"
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -1,18 +1,208 @@
 // SPDX-License-Identifier: MIT
 // The mixer state: the scene, the layout of actuators, and one strip per actuator.
 #pragma once
-#include "Live/Documents/Strip.h"
+#include "Core/Limits.h"
+#include "Core/RenderControl.h"
+#include "Core/Units.h"
+#include "Io/Json/FieldTable.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/Scene.h"
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace physvib {
+
+// Channel strips of mixer and plug-in, one per actuator, and groups of strips. The fields of each struct in
+// files are listed below it.
+
+// Gain automation over the time of a scene run: points joined by straight lines in dB.
+
+constexpr double leastStripDb = -60.0, mostStripDb = 6.0; ///< faders and lanes; least is silence
+
+struct GainPoint {
+    double seconds = 0.0; ///< of the world, from the start of the scene run
+    double db = 0.0;      ///< added to the fader, leastStripDb (silence) to mostStripDb
+    bool operator==(const GainPoint&) const = default;
+};
+
+/// Points in time order; none: 0 dB.
+using GainLane = std::vector<GainPoint>;
+constexpr std::size_t mostGainPoints = 2'000;
+
+/// Rounded to steps of 0.1 dB, as faders have. Any thread, as all functions here.
+double laneDbAt(const GainLane& lane, double seconds) noexcept;
+double loudestDb(const GainLane& lane) noexcept; ///< largest value of its points
+
+/// Total of gains in series: silence if one of them is, and limited to the range of a fader.
+double sumDb(std::initializer_list<double> gainsDb) noexcept;
+
+/// The sum of both lanes, with the points of both (allocates).
+GainLane sumOf(const GainLane& a, const GainLane& b);
+
+/// Removes points within 0.25 dB of the line between their neighbours, and more until at most `mostPoints`
+/// remain (allocates).
+GainLane thinned(const GainLane& lane, std::size_t mostPoints = mostGainPoints);
+
+/// The session format version that introduced the newest field of a strip or group.
+constexpr int stripsVersion = 8;
+
+namespace kinds {
+/// The plug-in's strips, one per actuator; each plays on the channel of the same number.
+struct PluginStrips {
+    int count;
+};
+} // namespace kinds
+
+struct Strip {
+    double gainDb = 0.0;
+    bool isMuted = false;
+    bool isSolo = false;
+    bool isInverted = false; ///< polarity
+    double delayMs = 0.0;
+    double ceilingDb = 0.0; ///< relative to full scale
+    int output = -1;        ///< device output from 0; -1: none
+    int group = -1;         ///< index into the mix's groups; -1: none
+    GainLane lane{};        ///< added to the fader
+    bool operator==(const Strip&) const = default;
+};
+
+constexpr double leastCeilingDb = -60.0; // lower values would amount to a mute
+constexpr int mostStripOutputs = 1024;
+constexpr std::size_t mostGroups = 16;
+inline constexpr auto stripRangeDb = kinds::within(leastStripDb, mostStripDb); // leastStripDb is silence
+
+/// The fields that plug-in strips have too. They have no groups and lanes.
+void visitStrip(auto& v) {
+    v.field("gain_db", &Strip::gainDb, stripRangeDb);
+    v.field("mute", &Strip::isMuted, kinds::truth);
+    v.field("solo", &Strip::isSolo, kinds::truth);
+    v.field("invert", &Strip::isInverted, kinds::truth);
+    v.field("delay_ms", &Strip::delayMs, kinds::within(0.0, 1e3 * limits::maxChannelDelaySeconds));
+    v.field("ceiling_db", &Strip::ceilingDb, kinds::within(leastCeilingDb, 0.0));
+}
+
+struct PluginStrip; // the plug-in's strip in files
+void visitFields(auto& v, FieldsOf<PluginStrip>) { visitStrip(v); }
+void visitFields(auto& v, FieldsOf<Strip>) {
+    visitStrip(v);
+    v.field("output", &Strip::output, kinds::FromOne{0, mostStripOutputs}); // 0: none
+    v.field("group", &Strip::group, kinds::FromOne{1, static_cast<int>(mostGroups)}, Need::optional.from(8));
+    v.field("lane", &Strip::lane, Own<GainLane>{}, Need::optional.from(8));
+}
+
+/// Strips with a common fader and mute, such as those of a hand or the back.
+struct StripGroup {
+    std::string name;
+    double gainDb = 0.0; ///< added to each strip's gain
+    bool isMuted = false;
+    GainLane lane{};
+    bool operator==(const StripGroup&) const = default;
+};
+
+void visitFields(auto& v, FieldsOf<StripGroup>) {
+    v.field("name", &StripGroup::name, kinds::text);
+    v.field("gain_db", &StripGroup::gainDb, stripRangeDb);
+    v.field("mute", &StripGroup::isMuted, kinds::truth);
+    v.field("lane", &StripGroup::lane, Own<GainLane>{}, Need::optional);
+}
+
+/// The lowest of `outputs` outputs that no strip uses and that is not in use otherwise; -1: none. Any thread.
+inline int freeOutput(std::span<const Strip> strips, std::span<const int> inUse = {},
+                      int outputs = mostStripOutputs) noexcept {
+    for (int k = 0; k < outputs; ++k)
+        if (std::ranges::find(strips, k, &Strip::output) == strips.end() &&
+            std::ranges::find(inUse, k) == inUse.end())
+            return k;
+    return -1;
+}
+
+/// Gives a strip an output; -1: none. A strip that has this output gets the other's former one. Any thread.
+inline void giveOutput(std::span<Strip> strips, std::size_t strip, int output) noexcept {
+    const auto had = output < 0 ? strips.end() : std::ranges::find(strips, output, &Strip::output);
+    if (had != strips.end()) had->output = strips[strip].output;
+    strips[strip].output = output;
+}
+
+/// Takes the output from each strip that shares it with an earlier one. Returns these strips. Any thread.
+inline std::vector<std::size_t> settleOutputs(std::span<Strip> strips) {
+    std::vector<std::size_t> without;
+    for (std::size_t j = 1; j < strips.size(); ++j) {
+        if (strips[j].output < 0) continue;
+        const auto earlier = strips.first(j);
+        if (std::ranges::find(earlier, strips[j].output, &Strip::output) == earlier.end()) continue;
+        strips[j].output = -1;
+        without.push_back(j);
+    }
+    return without;
+}
+
+/// A strip for one more actuator: on the lowest free output, with the others' lowest ceiling. Any thread.
+inline Strip nextStrip(std::span<const Strip> strips) noexcept {
+    Strip next;
+    next.output = freeOutput(strips);
+    for (const Strip& s : strips) next.ceilingDb = std::min(next.ceilingDb, s.ceilingDb);
+    return next;
+}
+
+/// Resizes to one strip per actuator. Any thread.
+inline void resizeStrips(std::vector<Strip>& strips, int enchanters) {
+    const auto wanted = static_cast<std::size_t>(enchanters);
+    while (strips.size() < wanted) strips.push_back(nextStrip(strips));
+    strips.resize(wanted);
+}
+
+/// Whether the strip is silent: muted, or another strip is solo and this one is not. Any thread.
+inline bool isSilent(std::span<const Strip> strips, std::size_t strip) noexcept {
+    return strips[strip].isMuted || (!strips[strip].isSolo && std::ranges::any_of(strips, &Strip::isSolo));
+}
+
+/// Gain of the channel: level and polarity. Any thread.
+inline float channelGain(const Strip& strip) noexcept {
+    const double gain = strip.gainDb <= leastStripDb ? 0.0 : fromDecibels(strip.gainDb);
+    return static_cast<float>(strip.isInverted ? -gain : gain);
+}
+
+/// Largest sample value that the strip lets pass. Any thread.
+inline float ceilingOf(const Strip& strip) noexcept {
+    return static_cast<float>(fromDecibels(strip.ceilingDb));
+}
+
+/// The strip values last sent to a session; initially those a session starts with.
+struct SentStrip {
+    float gain = 1.0f, delaySeconds = 0.0f, ceiling = 1.0f, mute = 0.0f;
+};
+
+/// Sends a session the values of strips that have changed. `sent` has one entry per strip. `send(control)`
+/// returns false if the queue is full; then this function returns false too, and the next call sends the
+/// value again. Any thread.
+template <class Send>
+bool sendStrips(std::span<SentStrip> sent, std::span<const Strip> strips, Send send) {
+    using Kind = RenderControl::Kind;
+    bool isSent = true;
+    for (std::size_t j = 0; j < strips.size(); ++j) {
+        const auto change = [&](Kind kind, float value, float& known) {
+            if (value == known) return;
+            if (send(RenderControl{0, kind, static_cast<int>(j), value, {}}))
+                known = value;
+            else
+                isSent = false;
+        };
+        change(Kind::gain, channelGain(strips[j]), sent[j].gain);
+        change(Kind::delay, static_cast<float>(1e-3 * strips[j].delayMs), sent[j].delaySeconds);
+        change(Kind::ceiling, ceilingOf(strips[j]), sent[j].ceiling);
+        change(Kind::mute, isSilent(strips, j) ? 1.0f : 0.0f, sent[j].mute);
+    }
+    return isSent;
+}
+
 // N s per metre of the screen (thesis 5.3.1)
 constexpr double thesisDrag = 32'000.0, leastDrag = 1'000.0, mostDrag = 100'000.0;
 

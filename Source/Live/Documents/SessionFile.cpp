@@ -11,7 +11,6 @@
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
-#include <algorithm>
 
 namespace physvib {
 namespace detail {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Routes messages: looks up the name, checks values and time, acts, and answers queries.
 #include "Live/Messages/MessageRouter.h"
-#include "Core/NameNumbers.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
@@ -191,6 +190,24 @@ std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, con
 void MessageRouter::stop(std::int64_t at) {
     if (at == latestNs_) at = latestNs_ = at + frameNs;
     if (auto taken = session_.submit({Stop{}, at}); !taken) throw MessageError{taken.error};
+}
+
+std::string takeSilence(MuteRequests& silence, const SilenceControl& control, MuteRequester holder) {
+    if (control.isOn) {
+        if (control.number == SilenceControl::unnumbered)
+            silence.request(holder);
+        else
+            silence.request(holder, control.number);
+        return {};
+    }
+    silence.lift(holder, control.number);
+    std::string others;
+    for (const auto& [other, words] : {std::pair{MuteRequester::machine, "at the machine"},
+                                       {MuteRequester::standardInput, "by standard input"},
+                                       {MuteRequester::osc, "by OSC"}})
+        if (other != holder && silence.isHeldBy(other))
+            others += std::string(others.empty() ? "" : " and ") + words;
+    return others.empty() ? "" : "silence: still asked for " + others;
 }
 
 } // namespace physvib

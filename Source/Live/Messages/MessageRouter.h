@@ -3,18 +3,179 @@
 // time, and passes them to the session.
 #pragma once
 #include "Core/EnchanterLayout.h"
+#include "Core/Limits.h"
+#include "Core/NameNumbers.h"
 #include "Io/Result.h"
 #include "Live/Documents/InputLine.h"
-#include "Live/Messages/MessageTable.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/Session.h"
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
 #include <vector>
 
 namespace physvib {
+
+// Table of all messages that a session accepts, with their arguments. The inputs (lines, OSC) read it; a test
+// compares it with Docs/messages.md.
+
+class MessageValues;
+class Session;
+struct CollisionEvent;
+struct EventShaping;
+struct Material;
+struct PlainMessage;
+
+struct MessageArgument {
+    enum class Type {
+        number, ///< from `least` to `most`
+        word,
+        place,  ///< an actuator's letter, or x and y in metres of the field
+        places, ///< letters, or x, y, x, y...
+        numbers ///< rising, each from `least` to `most`
+    };
+    std::string_view name;
+    Type type = Type::number;
+    double least = 0.0, most = 0.0;
+    std::string_view usual; ///< default value as it is written in a line; empty: see `meaning`
+    std::string_view meaning;
+};
+
+struct MessageDescription {
+    /// The events of a message, in time order, from time 0 on. An event that is cut ends at the zero crossing
+    /// nearest to its end, at the frequency that the shaping plays. `materials` are the scene's. Throws
+    /// MessageError. Any thread but the render thread (R). In MessageValues.cpp.
+    using Strikes = std::vector<CollisionEvent>(const MessageValues& values,
+                                                const std::vector<Material>& materials,
+                                                const EventShaping& shaping);
+    /// The answer of a query. Any thread but R. In MessageRouter.cpp.
+    using Answer = PlainMessage(const Session& session);
+    struct Clip {};
+    struct Stop {};
+
+    std::string_view name, meaning;
+    std::span<const MessageArgument> arguments;      ///< all but queries have time arguments as well
+    std::variant<Strikes*, Answer*, Clip, Stop> act; ///< what the router does for it
+
+    constexpr bool isQuery() const noexcept { return std::holds_alternative<Answer*>(act); }
+};
+
+namespace messages {
+
+using Type = MessageArgument::Type;
+constexpr double mostSeconds = 3600.0;        // of one vibration
+constexpr double mostAheadSeconds = 86'400.0; // a day's programme can be sent in advance
+constexpr int mostPlaces = 64, mostPulses = 64;
+
+/// An argument's name means the same in every message.
+inline constexpr MessageArgument frequency{"frequency_hz",         Type::number, limits::slowestToneHz,
+                                           limits::maxFrequencyHz, "205",        "of the tone"};
+inline constexpr MessageArgument level{"level", Type::number, 0.0,
+                                       1.0,     "0.5",        "peak at gain 1, in shares of full scale"};
+inline constexpr MessageArgument place{"place", Type::place, 0.0,
+                                       0.0,     "",          "where; left out: the middle of the field"};
+inline constexpr MessageArgument law{
+    "law",    Type::word,
+    0.0,      0.0,
+    "layout", "how it is spread: `layout` (as hits are), by a [law](panning.md#laws), `equal`, `alone`"};
+
+inline constexpr MessageArgument part{
+    "part", Type::word,
+    0.0,    0.0,
+    "",     "of the body ([names](space.md#parts)), on whose actuators alone it is felt; left out: all"};
+
+inline constexpr std::array when{
+    MessageArgument{"at", Type::number, 0.0, limits::maxTimeNs * 1e-9, "now",
+                    "session time in s, or `now`; felt the output latency later"},
+    MessageArgument{"in", Type::number, 0.0, mostAheadSeconds, "0", "seconds from now, instead of `at`"}};
+
+inline constexpr std::array strike{
+    MessageArgument{"material", Type::word, 0.0, 0.0, "", "of the scene, for its frequency and decay"},
+    MessageArgument{"frequency_hz", Type::number, 1.0, limits::maxFrequencyHz, "",
+                    "instead of a material; below 5 with a decay of at least 1"},
+    MessageArgument{"decay_per_s", Type::number, 0.0, limits::maxDecayPerSecond, "",
+                    "with it: this or `seconds`"},
+    place,
+    level,
+    MessageArgument{"seconds", Type::number, 0.0, mostSeconds, "0",
+                    "after which it is cut, at a zero crossing; 0: when it has decayed"},
+    law,
+    part};
+inline constexpr std::array pattern{
+    MessageArgument{"pattern", Type::word, 0.0, 0.0, "",
+                    "one to three actuators and a pulse's ms: `ABA-250`"},
+    MessageArgument{"enchanters", Type::word, 0.0, 0.0, "",
+                    "instead of it, letters of up to 64 pulses: `ABCDDCBA`"},
+    MessageArgument{"pulse_s", Type::number, 0.001, 10.0, "0.25", "length of each of those"},
+    MessageArgument{"gap_s", Type::number, 0.0, 10.0, "0.1", "silence between two pulses"},
+    frequency,
+    level};
+inline constexpr std::array phantom{
+    place, MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "length"}, law, frequency, level,
+    part};
+inline constexpr std::array path{
+    MessageArgument{"places", Type::places, 0.0, 0.0, "",
+                    "2 to 64 of them, joined by straight lines: `AD`, `[[0, 0], [1, 0.5]]`"},
+    MessageArgument{"seconds", Type::number, 0.001, mostSeconds, "1", "for all of it, at one speed"},
+    MessageArgument{"speed_m_per_s", Type::number, 1e-6, 1e6, "", "instead of `seconds`"},
+    MessageArgument{"times_s", Type::numbers, 0.0, mostSeconds, "",
+                    "instead of `seconds`: when each place is reached"},
+    MessageArgument{"strokes", Type::number, 0.0, 64.0, "0",
+                    "so many still vibrations along it, timed as Tactile Brush does; 0: one that moves"},
+    MessageArgument{"law", Type::word, 0.0, 0.0, "auto",
+                    "as of a strike; `auto` is felt where it is, and equally strong all the way: "
+                    "`neighbours` on a row, grid or belt of three or more, else `equal`; `linear`, `log` and "
+                    "`log-outer` lag behind (linear: 0.16 where 0.3 is meant)"},
+    frequency,
+    level,
+    part};
+
+inline constexpr std::array clip{
+    MessageArgument{
+        "file", Type::word, 0.0, 0.0, "",
+        "a recording or [haptic file](events.md#haptic-files-of-others), in the folder that the door "
+        "reads from"},
+    MessageArgument{
+        "place", Type::place, 0.0, 0.0, "",
+        "where; left out: its own places, or one channel per actuator, or the middle of the field"},
+    MessageArgument{"level", Type::number, 0.0, 1.0, "1", "of what is in the file, at gain 1"}, law};
+
+} // namespace messages
+
+MessageDescription::Strikes strikeStrikes, patternStrikes, phantomStrikes, pathStrikes;
+MessageDescription::Answer statusAnswer, layoutAnswer, latencyAnswer;
+
+inline constexpr auto messageTable = std::to_array<MessageDescription>({
+    {"strike", "a vibration that decays, or is cut", messages::strike, strikeStrikes},
+    {"pattern", "pulses, each on one actuator alone", messages::pattern, patternStrikes},
+    {"phantom", "a vibration that stays at a place", messages::phantom, phantomStrikes},
+    {"path", "a vibration that moves", messages::path, pathStrikes},
+    {"clip", "a recording or a haptic file", messages::clip, MessageDescription::Clip{}},
+    {"stop",
+     "what sounds fades out within 10 ms; what was asked for before and has not begun is forgotten",
+     {},
+     MessageDescription::Stop{}},
+    {"status",
+     "answers session time, strikes that wait, bodies, collisions lost, time given up in stalls, and events "
+     "dropped",
+     {},
+     statusAnswer},
+    {"layout",
+     "answers the law, the field, and the actuators' places in metres of the field",
+     {},
+     layoutAnswer},
+    {"latency",
+     "answers the output latency: how long after its time each vibration is felt",
+     {},
+     latencyAnswer},
+});
 
 // Callback by which an input of messages supplies clips. This module reads no files: each input (lines, OSC)
 // reads them from its own folder.
@@ -68,5 +229,60 @@ private:
     std::int64_t latestNs_ = 0; // time of the newest event that was requested for "now": a stop comes after
                                 // it, and the next such event not before
 };
+
+// Rate limit for error reports per cause, so that many faulty messages do not flood a log or an input's reply
+// line.
+
+/// At most one report per cause in `everyNs`, and at most `mostCauses` causes in that time; the others are
+/// counted. The caller supplies the clock. One thread at a time.
+class ErrorRateLimit {
+public:
+    static constexpr std::size_t mostCauses = 16;
+
+    explicit ErrorRateLimit(std::int64_t everyNs) noexcept
+        : everyNs_{everyNs} {}
+
+    /// True if this error is to be reported.
+    bool take(std::string_view reason, std::int64_t nowNs) noexcept {
+        const std::uint64_t cause = causeOf(reason);
+        Said* place = nullptr; // entry of this cause, or a free one
+        for (Said& one : said_) {
+            const bool isFree = one.untilNs <= nowNs;
+            if (!isFree && one.cause == cause) return ++leftOut_, false;
+            if (isFree) place = &one;
+        }
+        if (place == nullptr) return ++leftOut_, false;
+        *place = {cause, nowNs + everyNs_};
+        return true;
+    }
+
+    /// How many were suppressed since the last call.
+    std::uint64_t takeLeftOut() noexcept { return std::exchange(leftOut_, 0); }
+
+    /// Equal for errors that differ only in what was found, in numbers and in quoted words. Any thread.
+    static constexpr std::uint64_t causeOf(std::string_view reason) noexcept {
+        std::uint64_t hash = fnv1a({});
+        bool isQuoted = false;
+        for (const char c : reason.substr(0, reason.find(", found "))) {
+            if (c == '"')
+                isQuoted = !isQuoted;
+            else if (!isQuoted && (c < '0' || c > '9'))
+                hash = fnv1a({&c, 1}, hash);
+        }
+        return hash;
+    }
+
+private:
+    struct Said {
+        std::uint64_t cause = 0;
+        std::int64_t untilNs = INT64_MIN;
+    };
+    std::int64_t everyNs_;
+    std::array<Said, mostCauses> said_{};
+    std::uint64_t leftOut_ = 0;
+};
+
+/// Executes an input's control. Empty, or one line: withdrawn, but others still ask for silence. Any thread.
+std::string takeSilence(MuteRequests& silence, const SilenceControl& control, MuteRequester holder);
 
 } // namespace physvib

@@ -6,7 +6,6 @@
 #include "Core/PhantomPanner.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Messages/MessageRouter.h"
-#include "Live/Messages/MessageTable.h"
 #include "Scene/Scene.h"
 #include <stdexcept>
 #include <string>

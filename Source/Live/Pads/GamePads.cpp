@@ -2,7 +2,7 @@
 // Game controllers through SDL's joystick API, because controllers without a mapping have motors too.
 #include "Live/Pads/GamePads.h"
 #include "Io/Text/CleanText.h"
-#include "Live/Pads/SharedLibrary.h"
+#include "Live/Session/System.h"
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>

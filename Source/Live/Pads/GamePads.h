@@ -39,7 +39,7 @@ public:
     virtual bool rumble(double low, double high) = 0;
     /// Reads the acceleration in m/s^2; false: not available.
     virtual bool acceleration(std::array<float, 3>& metresPerSecond2) = 0;
-    /// Sends a device-specific report, as made by DualSense.h; false: the controller refused.
+    /// Sends a device-specific report, as made by PadReports.h; false: the controller refused.
     virtual bool sendEffect(const void* bytes, int size) = 0;
 };
 

@@ -2,12 +2,111 @@
 // Sink that finds a controller among the system's raw devices, and sends it the reports of a feed while a
 // device plays.
 #pragma once
-#include "Live/Pads/HidFeed.h"
+#include "Io/Result.h"
+#include "Live/Pads/GamePads.h"
+#include "Live/Pads/PadReports.h"
 #include "Live/Session/OutputClock.h"
+#include "Live/Session/Sink.h"
 #include <atomic>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
 #include <thread>
+#include <vector>
 
 namespace physvib {
+
+// Controllers as Linux lists them for raw reports (/sys/class/hidraw), and writing such reports.
+
+/// A model of controller, as it identifies itself.
+struct HidModel {
+    std::uint16_t vendor, product;
+    PadBus bus; ///< other: any
+};
+
+struct HidPlace {
+    std::filesystem::path node; ///< "/dev/hidraw3"
+    std::string name;           ///< as the controller reports it
+    PadBus bus = PadBus::other;
+};
+
+/// Where the system lists such devices. PHYSVIB_HIDRAW=FOLDER replaces both by FOLDER/class and FOLDER/dev,
+/// for tests.
+struct HidFolders {
+    std::filesystem::path classes = "/sys/class/hidraw", nodes = "/dev";
+    static HidFolders ofSystem();
+};
+
+/// An open controller, exclusive within the process; only for writing. One thread at a time.
+class HidDevice {
+public:
+    /// All that are one of these models, by name of their nodes. Empty where the system has no such list. Any
+    /// thread but the render thread (R), as all functions here.
+    static std::vector<HidPlace> list(std::span<const HidModel> models,
+                                      const HidFolders& folders = HidFolders::ofSystem());
+
+    /// Opens the first whose name or node contains `where`, ignoring case, and that is not open in this
+    /// process; anyPad: any. One line: none is there, or this user may not write to it.
+    static Result<std::unique_ptr<HidDevice>> open(std::span<const HidModel> models, const std::string& where,
+                                                   const HidFolders& folders = HidFolders::ofSystem());
+    ~HidDevice();
+    HidDevice(const HidDevice&) = delete;
+    HidDevice& operator=(const HidDevice&) = delete;
+
+    const HidPlace& place() const noexcept { return place_; }
+    /// Sends one whole report, its number first; may wait for the system. False: the controller has gone.
+    bool write(std::span<const std::uint8_t> report);
+
+private:
+    HidDevice(HidPlace place, std::FILE* file)
+        : place_{std::move(place)}
+        , file_{file} {}
+    HidPlace place_;
+    std::FILE* file_;
+};
+
+// What a controller's reports are made of: samples of the session, or its events as tones.
+
+/// Which controllers a feed is for, and how they are called.
+struct HidFeedKind {
+    std::span<const HidModel> models;
+    std::string_view name; ///< "DualSense by Bluetooth"
+};
+
+inline constexpr int silentReports = 5; ///< as Linux' own driver sends to a Switch's controller
+
+/// Makes reports. next() and the others without a remark: one thread, the controller's.
+class HidFeed {
+public:
+    virtual ~HidFeed() = default;
+    virtual const HidFeedKind& kind() const noexcept = 0;
+
+    /// Render thread (R), wait-free.
+    virtual void rendered(const RenderedBlock&) noexcept PHYSVIB_NONBLOCKING {}
+    /// As for Sink: the thread that holds the world mutex, wait-free; the input mutex.
+    virtual void made(const CollisionEvent&) noexcept {}
+    virtual void posted(const RenderControl&) noexcept {}
+
+    /// A session begins, or time has gone back: what was fed before is discarded.
+    virtual void begin() = 0;
+    /// Reports that a controller needs before the first and after the last one, switchSeconds apart.
+    virtual std::span<const PadReport> on() const noexcept { return {}; }
+    virtual std::span<const PadReport> off() const noexcept { return {}; }
+    /// The report that is due at that steady time, if one is. `sessionNs`: what is felt now on the device;
+    /// `level`: the master level, 0: silent within this report.
+    virtual std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) = 0;
+    /// A report of silence; sent `silentReports` times, as radio may lose one and a motor holds what it had.
+    virtual PadReport rest() = 0;
+    virtual std::uint64_t lost() const noexcept { return 0; }   ///< frames or events; any thread
+    virtual bool playsClips() const noexcept { return true; }   ///< as SinkState
+    virtual double leadSeconds() const noexcept { return 0.0; } ///< as Sink::latencySeconds
+    virtual double laterSeconds() const noexcept = 0;           ///< than the device, at most, up to the write
+};
 
 /// Counts of what was sent, for display and tests.
 struct HidCounts {

@@ -5,7 +5,7 @@
 #include "Core/ControlQueue.h"
 #include "Core/PhantomPanner.h"
 #include "Live/Documents/SessionLog.h"
-#include "Live/Pads/HidFeed.h"
+#include "Live/Pads/HidOutput.h"
 #include <vector>
 
 namespace physvib {

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Loads the recordings and clips that a saved session refers to.
+// Loads the recordings and clips that a saved session refers to, and clips by name.
 #pragma once
 #include "Io/Result.h"
+#include "Live/Documents/SessionLog.h"
+#include "Live/Messages/MessageRouter.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/SessionRender.h"
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace physvib {
+
 /// Those of `log`; or one line if a file is missing, has changed or has no hit, or there are too many. M.
 Result<LoadedRecordings> loadRecordings(const SessionLog& log);
 
@@ -24,5 +28,27 @@ constexpr double matchedSeconds = 0.25;
 /// peak is 1, like that of a mode's envelope; if `file.isMatched`, the RMS over matchedSeconds equals that of
 /// the mode instead. A file whose hash differs from the expected one has changed and is refused. M only.
 Result<ContactRecording> loadContact(const RecordingFile& file);
+
+// Loads clips by name from one folder, so that a message can only read files below it.
+
+/// A ClipSource. Any thread but R.
+class ClipFolder {
+public:
+    explicit ClipFolder(std::filesystem::path folder)
+        : folder_{std::move(folder)} {}
+
+    /// Loads a recording or a haptic file (see readRecording), which must be in the folder or below after all
+    /// links are followed. Or one line.
+    Result<LoadedClip> operator()(const std::string& name) const;
+
+private:
+    std::filesystem::path folder_;
+};
+
+/// All channels of that file, without content below 5 Hz (takeSlowPart). Any thread but R.
+Result<LoadedClip> loadWholeClip(const std::filesystem::path& path);
+
+/// The clips that a session refers to; or one line if a file is missing or has changed. Any thread but R.
+Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>& clips);
 
 } // namespace physvib

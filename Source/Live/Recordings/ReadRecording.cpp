@@ -8,7 +8,6 @@
 #include "Measure/HitExcerpt.h"
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <sndfile.h>

@@ -2,10 +2,11 @@
 // Records a live session: the channels as a WAV file, and the events as CSV in the WAV's time.
 #pragma once
 #include "Core/RenderControl.h"
+#include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"
-#include "Live/Devices/Taps.h"
+#include "Live/Devices/DeviceMeters.h"
 #include "Live/Recordings/LoadRecordings.h"
 #include "Live/Session/SessionRender.h"
 #include "Scene/EventsCsv.h"
@@ -142,7 +143,9 @@ private:
 class Recording {
 public:
     /// `path` ends in .wav; the events go to the same name with .csv.
-    Recording(const std::filesystem::path& path, int channels, int sampleRateHz);
+    Recording(const std::filesystem::path& path, int channels, int sampleRateHz)
+        : path_{path}
+        , recorder_{path, channels, sampleRateHz} {}
 
     std::string error() const { return recorder_.error(); }
     PlayedRecorder& recorder() noexcept { return recorder_; }
@@ -155,7 +158,19 @@ public:
     /// Completes both files, after R has stopped. `outputLatencyFrames` is the output latency; `field` is the
     /// field that places refer to; `names` are those of the scene's materials. Empty, or one line why.
     std::string finish(std::int64_t outputLatencyFrames, FieldSize field, const Provenance& provenance,
-                       const SoundNames& names);
+                       const SoundNames& names) {
+        if (auto error = recorder_.finish(); !error.empty()) return error;
+        const std::int64_t rate = recorder_.sampleRateHz(),
+                           late = outputLatencyFrames - recorder_.firstFrame();
+        const std::int64_t shiftNs = late / rate * 1'000'000'000 + late % rate * 1'000'000'000 / rate;
+        const std::int64_t lengthNs = static_cast<std::int64_t>(
+            1e9 * static_cast<double>(recorder_.frames()) / static_cast<double>(rate));
+        for (auto& event : played_) event.timeNs += shiftNs;
+        std::erase_if(played_,
+                      [lengthNs](const CollisionEvent& e) { return e.timeNs < 0 || e.timeNs >= lengthNs; });
+        std::ranges::stable_sort(played_, {}, &CollisionEvent::timeNs);
+        return writeFile(eventsPath(), eventsCsv(played_, field, provenance, names));
+    }
 
 private:
     std::filesystem::path path_;

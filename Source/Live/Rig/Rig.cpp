@@ -1,10 +1,38 @@
 // SPDX-License-Identifier: MIT
 // Opens and closes the parts of a live rig in the order that their threads require.
 #include "Live/Rig/Rig.h"
-#include "Live/Devices/Taps.h"
+#include "Live/Devices/DeviceMeters.h"
+#include "Live/Session/System.h"
+#include <algorithm>
 #include <utility>
 
 namespace physvib {
+
+ThreadDriver::ThreadDriver(Session& session, int stepsPerSecond, const std::atomic<bool>* ends)
+    : session_{session}
+    , stepNs_{std::max(poll, std::int64_t{1'000'000'000} / stepsPerSecond)}
+    , ends_{ends}
+    , thread_{[this] { run(); }} {}
+
+ThreadDriver::~ThreadDriver() {
+    isDestroyed_ = true;
+    thread_.join();
+}
+
+void ThreadDriver::run() {
+    raiseThreadPriority(false);
+    while (!isOver()) {
+        const std::int64_t begin = steadyNs();
+        // a thread that draws a world too slow for real time waits a step or two, not until it has caught up
+        session_.advance([&](auto) { return steadyNs() - begin <= mostHold && !isOver(); });
+        const std::int64_t now = steadyNs(), left = session_.world().nextStepNs() - now;
+        std::int64_t pause = std::max(left, std::int64_t{0}) + poll; // by then the block is rendered
+        if (left > longestBlock) pause = 4 * poll;                   // the first block may come at any time
+        if (session_.pulse().isStill(now)) pause = stepNs_;
+        std::this_thread::sleep_for(std::chrono::nanoseconds{std::max(pause, (now - begin) / 8)});
+    }
+}
+
 namespace {
 
 RigSettings withLog(RigSettings settings) {

@@ -8,19 +8,55 @@
 // board is silent for too long, the line is closed and opened again, as long as this object exists.
 #pragma once
 #include "Core/EventQueue.h"
-#include "Live/Session/SerialLine.h"
 #include "Wire/BoardStrike.h"
 #include "Wire/FrameDecoder.h"
 #include "Wire/LinkClock.h"
 #include <atomic>
+#include <cstdint>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
 
 namespace physvib {
+
+// Serial port at the board's speed, by libserialport, or a pseudo-terminal, which that library does not open.
+
+/// A serial port of the system.
+struct SerialPortName {
+    std::string path, description;
+    bool isLikelyBoard = false; ///< its USB vendor is that of an ST-Link
+};
+
+/// Message thread (M) or link thread.
+std::vector<SerialPortName> listSerialPorts();
+
+/// One thread at a time.
+class SerialLine {
+public:
+    virtual ~SerialLine() = default;
+
+    /// Waits up to `milliseconds` for bytes. Returns the number received, at most bytes.size(); -1 if the
+    /// line is gone.
+    virtual int read(std::span<std::uint8_t> bytes, int milliseconds) = 0;
+
+    /// False if the line is gone or does not accept the bytes.
+    virtual bool write(std::span<const std::uint8_t> bytes) = 0;
+};
+
+/// The opened line, or nullptr with a one-line reason in `error`.
+std::unique_ptr<SerialLine> openSerialLine(const std::string& path, std::string& error);
+
+/// Whether it is the line of a simulated board; never on Windows. Resolves symbolic links. Any thread but the
+/// render thread (R).
+bool isPseudoTerminal(const std::string& path);
+
+/// See openSerialLine().
+std::unique_ptr<SerialLine> openPseudoTerminal(const std::string& path, std::string& error);
 
 /// Port name: the first port on which a board answers.
 inline constexpr const char* anyBoard = "auto";

@@ -4,7 +4,6 @@
 #include "Live/Session/BoardOutput.h"
 #include "Core/NameNumbers.h"
 #include "Io/Text/NumberText.h"
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Renders the audio of contacts on one channel, or panned to two.
 #include "Live/Session/ContactAudio.h"
-#include "Core/NameNumbers.h"
 #include "Core/Units.h"
 #include <deque>
 #include <new>

@@ -2,7 +2,6 @@
 // Resamples recordings of contacts to the renderer's sample rate.
 #include "Live/Session/ContactSounds.h"
 #include "Core/Samples.h"
-#include <algorithm>
 #include <samplerate.h>
 
 namespace physvib {

@@ -6,7 +6,7 @@
 #include "Core/HapticRenderer.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Session/OnsetMarks.h"
-#include "Live/Session/ThisThread.h"
+#include "Live/Session/System.h"
 #include <cstdint>
 #include <functional>
 #include <span>

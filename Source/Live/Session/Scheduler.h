@@ -2,21 +2,197 @@
 // Processes all inputs to a session from outside: checks them, gives them a time, logs them, and passes them
 // to the world or the renderer.
 #pragma once
+#include "Core/CollisionEvent.h"
 #include "Core/ControlQueue.h"
+#include "Core/RenderControl.h"
 #include "Io/Result.h"
+#include "Live/Documents/Mix.h"
 #include "Live/Documents/SessionLog.h"
 #include "Live/Session/ContactAudio.h"
 #include "Live/Session/ContactSounds.h"
-#include "Live/Session/Input.h"
+#include "Live/Session/SessionSetup.h"
+#include "Live/Session/Timeline.h"
 #include "Live/Session/WorldRunner.h"
+#include "Scene/Scene.h"
 #include "Scene/World/InputCheck.h"
 #include <array>
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
 
 namespace physvib {
+
+// Inputs that arrive in the render call itself (MIDI, automation), on their way to the renderer and the
+// world.
+
+class SessionWorld;
+
+// Interface of a source of samples, such as incoming audio, that a session mixes with the rendered events.
+
+/// Mixed before the actuators' own stages: level, equaliser, delay and limiter act on all samples alike.
+class AddedSamples {
+public:
+    /// The renderer's frames from `frame` on (session time in frames), at most limits::tileFrames. One
+    /// pointer per channel of the session; null: silence. Valid until the next call. R, wait-free.
+    virtual const float* const* at(std::int64_t frame, int frames) noexcept = 0;
+
+protected:
+    ~AddedSamples() = default;
+};
+
+/// Part of a session.
+class CallbackInputs {
+public:
+    /// `frame`: frames into the block that is rendered next. The event is felt at an exact frame: the
+    /// output latency later, or the renderer's latency later if the session is direct. False, and counted,
+    /// if the queue is full. Render thread (R), wait-free.
+    bool strike(CollisionEvent event, int frame) noexcept { return strike(event, frame, 0); }
+    /// `afterNs` after that frame, which may be past
+    bool strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept;
+    /// its panner is copied; at most 16 of them wait
+    bool control(RenderControl control, int frame) noexcept;
+    bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step, if there is one
+
+    /// Acts at once, without the output latency: sounding modes fade, and earlier events are no longer
+    /// played. R, wait-free.
+    bool silence(int frame) noexcept;
+
+    /// Mixes in these samples from now on; they must outlive the session. M, not while rendering.
+    void add(AddedSamples& samples) noexcept { added_ = &samples; }
+
+private:
+    friend class Session;
+    friend class WorldRunner;
+
+    /// Both outlive it; of `setup` it uses the shaping of events and the groups of actions.
+    CallbackInputs(const Timeline& time, const SessionSetup& setup)
+        : time_{time}
+        , hasWorld_{setup.hasWorld}
+        , shaping_{setup.shaping}
+        , groups_{setup.groups} {}
+
+    /// Discards everything queued and spawned. M, not while rendering, with the world mutex held.
+    void forget() noexcept;
+
+    /// The next item for the renderer; false: none. R, wait-free.
+    bool popStrike(CollisionEvent& strike) noexcept { return strikes_.pop(strike); }
+    bool popControl(RenderControl& control) noexcept { return controls_.pop(control); }
+
+    /// Passes R's actions to the world. On the thread that holds the world mutex.
+    void handTo(SessionWorld& world);
+
+    /// Items that did not fit the queues. Any thread, wait-free.
+    std::uint64_t refused() const noexcept {
+        return strikes_.overflows() + controls_.overflows() + inputs_.overflows();
+    }
+
+    void addBody(SessionWorld& world, std::int64_t timeNs, SpawnAction action);
+
+    const Timeline& time_;
+    const bool hasWorld_;
+    const EventShaping shaping_;
+    const std::vector<std::vector<Action>>& groups_;
+    EventQueue<CollisionEvent, 1024> strikes_; // written and read by R: a dense chord in 8192 frames
+    ControlQueue<128, 16> controls_;           // senders limit their rate
+    EventQueue<RenderInput, 1024> inputs_;     // from R to the thread that steps the world
+    AddedSamples* added_ = nullptr;
+    std::uint64_t spawns_ = 0;          // this and the next are guarded by the world mutex
+    std::array<std::string, 64> names_; // of the newest bodies that R spawned; no scene needs more at once
+};
+
+// The inputs to a session from outside: by mouse, text line, message, program or sequencer.
+
+/// Events that no world produced (a test pulse, a material preview), at their own times after the input's.
+/// The caller keeps them alive during the call.
+struct Strikes {
+    std::span<const CollisionEvent> events;
+    bool canBeStopped = false; ///< events wait in the session until their time; a Stop can discard them
+};
+
+/// Fades out what sounds, and discards pending events from its time on.
+struct Stop {};
+
+/// Recordings that events play instead of modes; empty: modes. Sounding recordings fade out.
+struct PlayedRecordings {
+    std::vector<ContactRecording> recordings;
+};
+
+/// From now on automated gains (lanes) follow the scene's time, of each strip that has a lane itself or by
+/// its group. They act at the world's steps like moved faders, and are logged. A gain that is set otherwise
+/// holds until the scene time advances.
+struct Lanes {
+    std::shared_ptr<const Mix> mix; ///< null: no lanes
+};
+
+/// One input of any kind.
+struct Input {
+    static constexpr std::int64_t now = std::numeric_limits<std::int64_t>::min();
+
+    /// An Action acts in the world; a RenderControl changes how later events are rendered. Of several
+    /// edits, which the caller keeps alive during the call, all act or none.
+    std::variant<Action, std::span<const Action>, RenderControl, PlayedRecordings, Strikes, Stop, Lanes> what;
+    /// Session time at which it acts. Strikes and Stop may be in the future; if that time is past they are
+    /// late. All other inputs act now.
+    std::int64_t timeNs = now;
+};
+
+// Bounded queue from a thread that reads input to a thread that acts on it. The reader is never blocked, so
+// it can react to a request for silence further behind.
+
+/// One thread pushes, another pops. Neither may be the render thread (R).
+template <class Item>
+class InputQueue {
+public:
+    static constexpr std::size_t mostBytes = 16 << 20; ///< limit for pending items
+    static constexpr std::size_t itemBytes = 256;      ///< counted per item beside its text
+
+    /// False, and nothing changes, while the queue is full.
+    bool push(Item&& item, std::size_t textBytes) {
+        const std::size_t bytes = textBytes + itemBytes;
+        {
+            const std::lock_guard lock{mutex_};
+            if (bytes_ + bytes > mostBytes) return false;
+            items_.emplace_back(std::move(item), bytes);
+            bytes_ += bytes;
+        }
+        came_.notify_one();
+        return true;
+    }
+
+    /// Waits for an item; false after the time-out.
+    bool wait(std::chrono::milliseconds patience) {
+        std::unique_lock lock{mutex_};
+        return came_.wait_for(lock, patience, [this] { return !items_.empty(); });
+    }
+
+    /// The first item, if any.
+    std::optional<Item> pop() {
+        const std::lock_guard lock{mutex_};
+        if (items_.empty()) return std::nullopt;
+        std::optional<Item> item{std::move(items_.front().first)};
+        bytes_ -= items_.front().second;
+        items_.pop_front();
+        return item;
+    }
+
+private:
+    std::mutex mutex_; // guards the following members
+    std::condition_variable came_;
+    std::deque<std::pair<Item, std::size_t>> items_; // with their sizes in bytes
+    std::size_t bytes_ = 0;
+};
 
 /// Part of a session; Session documents these methods. Its mutex is locked before the world's.
 class Scheduler {

@@ -3,7 +3,7 @@
 //
 // Threading model. One thread at a time holds a role; comments everywhere name it by its letter.
 // - M, the message thread: sets up, edits, reads telemetry. It may allocate, lock and wait.
-// - D, the world driver: calls advance(). M's timer or a SimulationDriver; as M, but it must be on time.
+// - D, the world driver: calls advance(). M's timer or a ThreadDriver; as M, but it must be on time.
 // - R, the render thread: calls render(). It never allocates, frees, locks, waits or calls the system. Blocks
 //   that the host calls non-realtime, or that need a world which D has not stepped, are the exception.
 // - N, the thread of an input (OscPort, InputListener): waits for the session's mutexes, never for M.
@@ -16,9 +16,8 @@
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/HapticRenderer.h"
-#include "Live/Session/CallbackInputs.h"
 #include "Live/Session/ContactAudio.h"
-#include "Live/Session/DevicePulse.h"
+#include "Live/Session/OutputClock.h"
 #include "Live/Session/Scheduler.h"
 #include "Live/Session/Sink.h"
 #include "Live/Session/Timeline.h"

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Renders a saved session: merges the events of its scene runs and inputs, then renders offline.
+// Renders a saved session: merges the events of its scene runs and inputs, then renders offline. Renders
+// stimuli in g and scales them to each actuator's full scale.
 #include "Live/Session/SessionRender.h"
+#include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
 
 namespace physvib {
+
 SceneEvents sessionEvents(const SavedSession& session, std::int64_t endNs, const StepWatch& keepGoing) {
     SceneEvents all = runTakes(session.log.takes, session.run, endNs, keepGoing);
     for (const CollisionEvent& strike : session.log.strikes)
@@ -67,6 +70,75 @@ std::vector<RenderControl> SessionRecordings::with(std::vector<RenderControl> co
     controls.insert(controls.end(), changes_.begin(), changes_.end());
     std::ranges::stable_sort(controls, {}, &RenderControl::timeNs);
     return controls;
+}
+
+namespace {
+
+double peakOf(const std::vector<float>& samples) {
+    double peak = 0.0;
+    for (const float s : samples) peak = std::max(peak, static_cast<double>(std::abs(s)));
+    return peak;
+}
+
+/// Scales samples in g to shares of full scale. Empty, or the error of the channel that is too strong.
+std::string scaleToEnchanters(StimulusSound& sound, const LayoutDescription& layout) {
+    for (std::size_t j = 0; j < sound.channels.size(); ++j) {
+        const auto& enchanter = layout.enchanters[j];
+        const double peakG = peakOf(sound.channels[j]);
+        if (!std::isfinite(peakG) || peakG > enchanter.fullScaleG * (1.0 + fullScaleSlack))
+            return "actuator " + enchanter.label + ": expected at most its full scale of " +
+                   numberText(enchanter.fullScaleG) + " g, found " + fixedNumber(peakG, 3) + " g";
+        for (float& s : sound.channels[j]) s = static_cast<float>(s / enchanter.fullScaleG);
+    }
+    return {};
+}
+
+} // namespace
+
+RendererSettings rendererFor(const Stimulus& stimulus, int sampleRateHz) {
+    RendererSettings settings{sampleRateHz, 0, stimulus.panner, false};
+    settings.modes = static_cast<int>(
+        std::clamp<std::size_t>(stimulus.events.size(), 1, static_cast<std::size_t>(limits::maxModes)));
+    return settings;
+}
+
+Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescription& layout,
+                                     int sampleRateHz) {
+    const auto channels = static_cast<std::size_t>(stimulus.panner.channels());
+    for (const auto& event : stimulus.events)
+        if (event.frequencyHz >= 0.5 * sampleRateHz)
+            return Failure{"expected a frequency below half the rate of " + std::to_string(sampleRateHz) +
+                           " Hz, found " + numberText(event.frequencyHz) + " Hz"};
+    StimulusSound sound{sampleRateHz, std::vector<std::vector<float>>(channels)};
+    const OfflineSettings settings{rendererFor(stimulus, sampleRateHz),
+                                   std::llround(stimulus.seconds * sampleRateHz)};
+    renderOffline(stimulus.events, settings, [&](const float* const* blocks, int frames) {
+        for (std::size_t j = 0; j < channels; ++j)
+            sound.channels[j].insert(sound.channels[j].end(), blocks[j], blocks[j] + frames);
+        return true;
+    });
+    const std::string error = scaleToEnchanters(sound, layout);
+    if (!error.empty()) return Failure{error};
+    return sound;
+}
+
+Result<StimulusSound> placeRecording(const StimulusSound& recording, const FieldPlace& place, double levelG,
+                                     const PhantomPanner& panner, const LayoutDescription& layout) {
+    const std::vector<float>& samples = recording.channels.front();
+    const double peak = peakOf(samples);
+    if (!(peak > 0.0) || !std::isfinite(peak))
+        return Failure{"expected a recording with a finite peak, found " + numberText(peak)};
+    PhantomPanner::Gains gains{};
+    const auto& geometry = layout.geometry;
+    panner.gainsAt(place.x * geometry.extentWidthMetres, (1.0 - place.y) * geometry.extentHeightMetres,
+                   gains);
+    StimulusSound sound{recording.sampleRateHz,
+                        std::vector<std::vector<float>>(layout.enchanters.size(), samples)};
+    for (std::size_t j = 0; j < sound.channels.size(); ++j)
+        for (float& s : sound.channels[j]) s = static_cast<float>(s * (levelG / peak * gains[j]));
+    const std::string error = scaleToEnchanters(sound, layout);
+    if (!error.empty()) return Failure{error};
+    return sound;
 }
 
 } // namespace physvib

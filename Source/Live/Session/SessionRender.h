@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Renders a saved session offline, to the samples that were played.
+// Renders a saved session offline, to the samples that were played, and stimuli of studies.
 #pragma once
+#include "Core/HapticRenderer.h"
 #include "Core/RenderControl.h"
+#include "Io/Result.h"
+#include "Io/Wav/SampledSound.h"
 #include "Live/Documents/SessionFile.h"
 #include "Live/Documents/SessionLog.h"
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OfflineRender.h"
+#include "Scene/LayoutFile.h"
+#include "Stimuli/Stimulus.h"
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -61,5 +66,26 @@ struct SessionExtent {
 /// Simulation throws.
 bool renderSession(const SavedSession& session, const LoadedRecordings& recordings,
                    const SessionExtent& extent, const BlockConsumer& consume);
+
+// Renders a stimulus of a study to samples, one channel per actuator, with the common renderer.
+
+constexpr double fullScaleSlack = 1e-6; ///< tolerance above full scale: rounding of a sine's peak
+
+/// 1 is an actuator's full scale.
+using StimulusSound = SampledSound;
+
+/// A renderer without limiter for the stimulus alone, with memory for as many modes as it has events: a study
+/// has hundreds of stimuli. Any thread.
+RendererSettings rendererFor(const Stimulus& stimulus, int sampleRateHz);
+
+/// The stimulus in units of each actuator's full scale. Without a limiter: a stimulus that would exceed full
+/// scale is refused, so that it is never changed. `layout` has as many actuators as the stimulus. M.
+Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescription& layout,
+                                     int sampleRateHz);
+
+/// A one-channel recording as a phantom at `place`: scaled to a peak of `levelG` and distributed by `panner`.
+/// Refused above full scale, as above. M only.
+Result<StimulusSound> placeRecording(const StimulusSound& recording, const FieldPlace& place, double levelG,
+                                     const PhantomPanner& panner, const LayoutDescription& layout);
 
 } // namespace physvib

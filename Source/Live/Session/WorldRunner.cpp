@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Steps the world, queues its events for the renderer, and applies new scenes between steps.
 #include "Live/Session/WorldRunner.h"
-#include "Live/Session/SessionWorld.h"
+#include "Live/Session/Scheduler.h"
 #include "Scene/SceneValidation.h"
-#include <algorithm>
 #include <chrono>
 #include <iterator>
 #include <thread>

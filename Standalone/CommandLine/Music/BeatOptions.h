@@ -3,7 +3,6 @@
 #pragma once
 #include "CommandLine/Study/NumberList.h"
 #include "Host/Music/BeatDetector.h"
-#include "Host/Music/BeatStrikes.h"
 #include "Io/Result.h"
 #include "Io/Text/NumberText.h"
 #include "Options/OptionTable.h"

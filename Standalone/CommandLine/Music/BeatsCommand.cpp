@@ -4,7 +4,7 @@
 #include "CommandLine/Command.h"
 #include "CommandLine/Measure/RecordingList.h"
 #include "CommandLine/Music/BeatOptions.h"
-#include "Host/Music/BandPass.h"
+#include "Host/Music/BeatDetector.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NameList.h"
 #include "Io/Wav/WavSink.h"

@@ -3,9 +3,8 @@
 #pragma once
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Documents/InputLine.h"
-#include "Live/Messages/ErrorRateLimit.h"
 #include "Live/Messages/MessageRouter.h"
-#include "Live/Session/Input.h"
+#include "Live/Session/Scheduler.h"
 #include "Live/Session/Session.h"
 #include <algorithm>
 #include <atomic>

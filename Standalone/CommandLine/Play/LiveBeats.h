@@ -2,8 +2,7 @@
 // Detects beats in a device's audio input and plays them in a live session.
 #pragma once
 #include "Host/Music/BeatDetector.h"
-#include "Host/Music/BeatStrikes.h"
-#include "Live/Devices/Taps.h"
+#include "Live/Devices/DeviceMeters.h"
 #include "Live/Session/Session.h"
 #include <atomic>
 #include <chrono>

@@ -3,7 +3,7 @@
 // sinks.
 #pragma once
 #include "Calls/LoadedRender.h"
-#include "Host/Music/BeatStrikes.h"
+#include "Host/Music/BeatDetector.h"
 #include "Host/Osc/OscPort.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Live/Rig/Rig.h"

@@ -13,7 +13,7 @@
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/FileClash.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Pads/DualSense.h"
+#include "Live/Pads/PadReports.h"
 #include "Scene/SceneEdits.h"
 #include <algorithm>
 #include <numbers>

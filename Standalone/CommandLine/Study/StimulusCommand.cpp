@@ -8,7 +8,7 @@
 #include "Io/Wav/WavSink.h"
 #include "Lab/Study/Stimulus.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "Live/Session/StimulusRender.h"
+#include "Live/Session/SessionRender.h"
 #include "Pictures/RenderPicture.h"
 #include "Scene/LayoutFile.h"
 #include <filesystem>

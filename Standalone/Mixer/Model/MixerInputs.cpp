@@ -3,7 +3,7 @@
 #include "Mixer/Model/MixerInputs.h"
 #include "Core/Samples.h"
 #include "Core/Units.h"
-#include "Live/Recordings/ClipFolder.h"
+#include "Live/Recordings/LoadRecordings.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/ActuatorFile.h"
 #include <numbers>

@@ -6,7 +6,6 @@
 #include "Io/Result.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Documents/Mix.h"
-#include "Live/Documents/Strip.h"
 #include "Live/Recordings/Recording.h"
 #include "Live/Session/Session.h"
 #include <algorithm>

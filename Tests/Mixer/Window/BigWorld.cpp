@@ -6,7 +6,7 @@
 // --empty: a window that shows nothing, which ../cpu.sh compares.
 // ../big-world.sh runs it; no test, since it measures times.
 #include "Host/MessageLoop.h"
-#include "Live/Session/ThisThread.h"
+#include "Live/Session/System.h"
 #include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "Scene/SceneFile.h"

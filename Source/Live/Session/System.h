@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The system's rules for threads that drive devices and worlds, and for their process; what a thread took.
+// What sessions ask of the system: its rules for threads that drive devices and worlds, and for their process;
+// libraries at run time.
 #pragma once
 
 namespace physvib {
@@ -17,5 +18,11 @@ bool areDriversBoundToTheirThread() noexcept;
 
 /// Number of the calling thread's process: another one in a forked child, where no other thread is left.
 int thisProcess() noexcept;
+
+// Loads libraries of the system at run time: a program starts without them, and runs where they are missing.
+
+/// System calls: opens the library of that name, and finds a function in it; or null. Any thread.
+void* openLibrary(const char* name);
+void* functionIn(void* library, const char* name);
 
 } // namespace physvib

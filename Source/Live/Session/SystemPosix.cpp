@@ -1,16 +1,40 @@
 // SPDX-License-Identifier: MIT
-// Pseudo-terminals on POSIX: open, poll, termios.
+// What sessions ask of POSIX systems: threads, pseudo-terminals, libraries.
 #if !defined(_WIN32)
-#include "Live/Session/PseudoTerminal.h"
+#include "Live/Session/BoardLink.h"
+#include "Live/Session/System.h"
 #include <cerrno>
 #include <cstring>
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <filesystem>
 #include <poll.h>
+#include <pthread.h>
+#include <sched.h>
 #include <termios.h>
+#include <time.h>
 #include <unistd.h>
 
 namespace physvib {
+
+void raiseThreadPriority(bool isAudio) noexcept {
+    // half of the range, as other programs that play sound: below the threads of audio servers
+    const int lowest = sched_get_priority_min(SCHED_RR), highest = sched_get_priority_max(SCHED_RR);
+    sched_param wanted{};
+    wanted.sched_priority = (lowest + highest) / 2 - (isAudio ? 0 : 1);
+    pthread_setschedparam(pthread_self(), SCHED_RR, &wanted); // fails without the privilege
+}
+
+bool areDriversBoundToTheirThread() noexcept { return false; }
+
+double threadSeconds() noexcept {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+int thisProcess() noexcept { return getpid(); }
+
 namespace {
 
 class TerminalLine final : public SerialLine {
@@ -52,6 +76,9 @@ std::unique_ptr<SerialLine> openPseudoTerminal(const std::string& path, std::str
     tcsetattr(file, TCSANOW, &raw);
     return std::make_unique<TerminalLine>(file);
 }
+
+void* openLibrary(const char* name) { return dlopen(name, RTLD_NOW | RTLD_LOCAL); }
+void* functionIn(void* library, const char* name) { return dlsym(library, name); }
 
 } // namespace physvib
 #endif

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Thread priority on Windows, and processor time, in steps of 100 ns.
+// What sessions ask of Windows: threads, pseudo-terminals, libraries.
 #if defined(_WIN32)
-#include "Io/Disk/SystemWindows.h"
-#include "Live/Session/ThisThread.h"
+#include "Live/Session/BoardLink.h"
+#include "Live/Session/System.h"
+
+#include "Io/Disk/SystemWindows.h" // last: its macros are for nobody else
 
 namespace physvib {
 
@@ -23,6 +25,20 @@ double threadSeconds() noexcept {
 }
 
 int thisProcess() noexcept { return static_cast<int>(GetCurrentProcessId()); }
+
+// There are no pseudo-terminals that a program can open by name: all lines are serial ports.
+
+bool isPseudoTerminal(const std::string&) { return false; }
+
+std::unique_ptr<SerialLine> openPseudoTerminal(const std::string& path, std::string& error) {
+    error = path + ": expected a serial port";
+    return nullptr;
+}
+
+void* openLibrary(const char* name) { return reinterpret_cast<void*>(LoadLibraryA(name)); }
+void* functionIn(void* library, const char* name) {
+    return reinterpret_cast<void*>(GetProcAddress(static_cast<HMODULE>(library), name));
+}
 
 } // namespace physvib
 #endif
