@@ -5,8 +5,7 @@
 #include "Live/Devices/NoDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/MixerWindow.h"
-#include "Options/Reference.h"
-#include "System/Interrupt.h"
+#include "Options/OptionTable.h"
 #include "System/Process.h"
 #include <iostream>
 

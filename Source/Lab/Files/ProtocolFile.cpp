@@ -12,8 +12,7 @@
 #include "Lab/Files/StudyTables.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/Protocol.h"
-#include "Scene/JsonReader.h"
-#include "Scene/JsonWriter.h"
+#include "Scene/SceneJson.h"
 #include "Scene/SceneRanges.h"
 #include <algorithm>
 #include <iterator>

@@ -5,7 +5,6 @@
 #include "Core/EventShaping.h"
 #include "Live/Session/SessionSetup.h"
 #include "Scene/SceneRun.h"
-#include "Scene/World/RunSettings.h"
 #include "Scene/World/Simulation.h"
 #include <cstdint>
 #include <memory>

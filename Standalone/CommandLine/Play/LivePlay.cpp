@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Creates the rig and its inputs for one call of `physvib play`.
 #include "CommandLine/Play/LivePlay.h"
+#include "Calls/RenderJob.h"
 #include "CommandLine/Play/InputListener.h"
-#include "CommandLine/Play/LiveBeats.h"
-#include "CommandLine/Render/MarkWords.h"
 #include "Core/Samples.h"
 #include "Core/Units.h"
 #include "Host/Osc/OscPort.h"
@@ -14,8 +13,6 @@
 #include "Live/Devices/SimulationDriver.h"
 #include "Live/Recordings/ClipFolder.h"
 #include "Live/Recordings/ReadRecording.h"
-#include "System/ExitCode.h"
-#include "System/Interrupt.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mixer's window: document, settings, keys and menu.
 #include "Mixer/Window/MixerWindow.h"
-#include "Calls/SessionMovie.h"
+#include "Calls/MovieOutput.h"
 #include "Core/Limits.h"
 #include "Host/Views/WorldView.h"
 #include "Io/Disk/AtomicFile.h"
@@ -10,7 +10,6 @@
 #include "Live/Recordings/Recording.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/PageLink.h"
-#include "Scene/FileKind.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>

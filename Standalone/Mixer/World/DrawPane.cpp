@@ -5,7 +5,6 @@
 #include "Mixer/Widgets/Parts.h"
 #include "Pictures/ShapeOutline.h"
 #include "Scene/Drawing/BodyEdits.h"
-#include "Scene/Drawing/BodyMotion.h"
 #include "Scene/SceneLimits.h"
 #include <algorithm>
 #include <cmath>
