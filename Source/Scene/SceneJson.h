@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads the structs of a scene from JSON and writes them, driven by the field table in SceneFields.h; fields with
-// default values are not written. For .cpp files that read or write JSON.
+// Reads the structs of a scene from JSON and writes them, driven by the field table in SceneFields.h; fields
+// with default values are not written. For .cpp files that read or write JSON.
 #pragma once
 #include "Io/Json/JsonField.h"
 #include "Io/Json/JsonText.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Declares the options of `physvib render` and `physvib stimulus`: names, ranges and help texts. Finds the files
-// of a call.
+// Declares the options of `physvib render` and `physvib stimulus`: names, ranges and help texts. Finds the
+// files of a call.
 #include "Calls/CallOptions.h"
 #include "Core/EventShaping.h"
 #include "Formats/ClipFile.h"
