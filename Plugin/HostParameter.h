@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <juce_audio_processors/juce_audio_processors.h>
 #include <limits>
+#include <utility>
 
 namespace physvib {
 
@@ -153,5 +155,58 @@ private:
     int phase_ = 0; // of the block's first frame, from the last multiple of longestStep on
     std::array<Line, parameterCount> lines_{};
 };
+
+inline void ParameterPoints::begin(PointSource* source, int frames) noexcept {
+    source_ = source;
+    const int before = std::exchange(frames_, frames);
+    if (!source) return;
+    for (std::size_t p = 0; p < lines_.size(); ++p) {
+        Line& line = lines_[p];
+        line.corner = read(p);
+        const bool isEndTold = source->lastOfLine(p) >= frames - 1;
+        line.isDrawn =
+            isEndTold && allParameters()[p].choices.empty() && (line.wasEndTold || line.corner.frame == 0);
+        if (line.wasEndTold) {
+            line.from.frame -= before;
+            draw(line, -1);
+        }
+        line.wasEndTold = isEndTold;
+    }
+}
+
+inline void ParameterPoints::end() noexcept {
+    phase_ = (phase_ + frames_) % longestStep;
+    if (source_) return;
+    for (Line& line : lines_) line.wasEndTold = false;
+}
+
+inline double ParameterPoints::take(std::size_t parameter) noexcept {
+    Line& line = lines_[parameter];
+    if (line.step < line.corner.frame) {
+        const int at = line.step;
+        draw(line, at);
+        return line.from.normal + (line.corner.normal - line.from.normal) * (at - line.from.frame) /
+                                      (line.corner.frame - line.from.frame);
+    }
+    line.from = line.corner;
+    line.corner = read(parameter);
+    draw(line, line.from.frame);
+    return line.from.normal;
+}
+
+inline ParameterPoint ParameterPoints::read(std::size_t parameter) noexcept {
+    for (ParameterPoint point; source_->next(parameter, point);)
+        if (std::isfinite(point.normal)) return {std::clamp(point.frame, 0, frames_), point.normal};
+    return {none, 0.0};
+}
+
+// The next multiple of the longest step behind `after`, if the line needs it.
+inline void ParameterPoints::draw(Line& line, int after) const noexcept {
+    line.step = none;
+    if (!line.isDrawn || line.corner.frame == none || line.corner.frame - line.from.frame <= longestStep)
+        return;
+    const int step = (phase_ + after + longestStep) / longestStep * longestStep - phase_;
+    if (step < line.corner.frame) line.step = step;
+}
 
 } // namespace physvib

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws the list of MIDI rules, with a form for each kind of rule. The reader of states checks what is
 // entered.
-#include "MidiPanels.h"
+#include "EditorPanels.h"
 #include "EditorParts.h"
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws the plug-in's mixer strips, and applies their changes to the state.
-#include "MixPanel.h"
 #include "Core/Units.h"
+#include "EditorPanels.h"
 #include "EditorParts.h"
 #include "Scene/ActuatorFile.h"
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The plug-in's window: the world, the mixer, settings, a control per parameter, and error messages.
 #pragma once
+#include "EditorPanels.h"
 #include "Host/Views/EmergencyStop.h"
 #include "Host/Views/WorldView.h"
 #include "HostKeys.h"
-#include "MidiPanels.h"
-#include "MixPanel.h"
 #include "PluginProcessor.h"
 #include <memory>
 #include <vector>

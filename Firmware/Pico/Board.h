@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pins of the Pico, and what the image was built for. All wires are on one side, beside each other.
+// Pins of the Pico, and what the image was built for. All wires are on one side, beside each other. Frames to
+// I2S amplifiers: one state machine of the PIO per line, fed by DMA from two tiles in turn.
 #pragma once
 #include "Signal/Player.h"
 #include "hardware/sync.h"
@@ -7,6 +8,7 @@
 #include "hardware/watchdog.h"
 
 namespace physvib::pico {
+
 constexpr int boardChannels = PHYSVIB_PICO_CHANNELS;
 constexpr int boardLines = boardChannels / 2; // an I2S line carries two channels: left, then right
 
@@ -40,5 +42,11 @@ void waitOrRestart(IsTrue&& isTrue) noexcept {
     for (const std::uint32_t began = time_us_32(); !isTrue();)
         if (time_us_32() - began > mostMicroseconds) restart();
 }
+
+/// Starts clocks, silence, the interrupt that renders tiles, and the watchdog. Main loop, once.
+void startOutput(Player<boardChannels>& player) noexcept;
+
+/// Longest rendering of a tile so far, in cycles of the processor; 0 where it has no counter. Main loop.
+std::uint32_t worstTileCycles() noexcept;
 
 } // namespace physvib::pico

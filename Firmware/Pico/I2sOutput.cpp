@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Two tiles per line: while DMA sends one, the interrupt renders the other. The channels of DMA start each
 // other and wrap within their tile, so the processor only writes samples.
-#include "I2sOutput.h"
 #include "Board.h"
 #include "hardware/clocks.h"
 #include "hardware/dma.h"

@@ -3,7 +3,6 @@
 #include "Usb.h"
 #include "Board.h"
 #include "Console.h"
-#include "I2sOutput.h"
 #include "Signal/Descriptors.h"
 #include "Signal/FrameBuffer.h"
 #include "hardware/structs/usb.h"

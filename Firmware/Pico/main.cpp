@@ -5,7 +5,7 @@
 // hangs, the output ramps to silence within 4 ms, and the chip restarts after 100 ms. If the interrupt hangs,
 // the watchdog restarts the chip within 4 ms: its pins become inputs, and the amplifiers' shut-down line
 // falls.
-#include "I2sOutput.h"
+#include "Board.h"
 #include "Signal/Indicator.h"
 #include "Usb.h"
 #include "hardware/clocks.h"

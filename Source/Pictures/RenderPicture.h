@@ -8,7 +8,7 @@
 #include "Pictures/Letters.h"
 #include "Pictures/WaveformEnvelope.h"
 #include "Scene/Scene.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <span>
 #include <string>
 #include <vector>

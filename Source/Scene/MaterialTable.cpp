@@ -4,8 +4,7 @@
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/JsonText.h"
-#include "Scene/JsonReader.h"
-#include "Scene/JsonWriter.h"
+#include "Scene/SceneJson.h"
 #include "Scene/SceneLimits.h"
 
 namespace physvib {

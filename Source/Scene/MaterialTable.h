@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Material tables as JSON: libraries from which scenes copy materials.
 #pragma once
+#include "Core/NameNumbers.h"
 #include "Io/Result.h"
 #include "Scene/Scene.h"
 #include "Scene/SceneRanges.h"
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -11,6 +13,7 @@
 #include <vector>
 
 namespace physvib {
+
 /// The version of the format that is written, and the newest that is read.
 constexpr int materialsFormatVersion = 1;
 
@@ -34,15 +37,6 @@ std::string materialsJson(const MaterialTable& table);
 /// Table 5.1 of the thesis, then the other tables. Read on first use; any thread.
 const std::vector<MaterialTable>& builtInMaterials();
 
-// Validates materials alone, for scenes and for material tables, which need no shapes and no Box2D.
-
-/// Empty if all are valid; else one line that names the field, as files spell it, and what was expected:
-/// ranges, and a name of its own for each. Any thread.
-std::string validateMaterials(const std::vector<Material>& materials);
-
-/// The same of the names alone. Events carry a name's number, so two must not share one. Any thread.
-std::string checkMaterialNames(const std::vector<Material>& materials);
-
 // Checks that no two items of a list have the same name.
 
 /// Empty, or one line that names the second item of that name. Any thread.
@@ -54,6 +48,32 @@ std::string checkUnique(const std::string& list, const std::vector<T>& all) {
             return detail::itemPath(list, i) + ".name: expected a name of its own, found \"" + all[i].name +
                    "\" again";
     return {};
+}
+
+// Validates materials alone, for scenes and for material tables, which need no shapes and no Box2D.
+
+/// Empty if all names are valid: each its own. Events carry a name's number, so two must not share one. Else
+/// one line that names the field, as files spell it, and what was expected. Any thread.
+inline std::string checkMaterialNames(const std::vector<Material>& all) {
+    if (std::string fault = checkUnique("materials", all); !fault.empty()) return fault;
+    std::vector<SoundNumber> sounds;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const SoundNumber sound = soundOfMaterial(all[i].name);
+        const auto same = static_cast<std::size_t>(std::ranges::find(sounds, sound) - sounds.begin());
+        if (same < i)
+            return detail::itemPath("materials", i) + ".name: expected another name: \"" + all[i].name +
+                   "\" and \"" + all[same].name + "\" have the same number by chance";
+        sounds.push_back(sound);
+    }
+    return {};
+}
+
+/// The same of ranges and names. Any thread.
+inline std::string validateMaterials(const std::vector<Material>& materials) {
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (std::string fault = checkRanges(materials[i], detail::itemPath("materials", i)); !fault.empty())
+            return fault;
+    return checkMaterialNames(materials);
 }
 
 } // namespace physvib

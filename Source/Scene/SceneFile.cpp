@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes scene files: version and variables; the fields follow the table in SceneFields.h.
+// Reads and writes scene files: version and variables; the fields follow the table in SceneFields.h. Finds
+// scenes by name, and a file's kind. Builds without files drop what reads them.
 #include "Scene/SceneFile.h"
+#include "Io/Disk/ReadFile.h"
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
-#include "Scene/JsonReader.h"
-#include "Scene/JsonWriter.h"
+#include "Scene/SceneJson.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace physvib {
+
 namespace {
 
 struct Choice {
@@ -136,6 +144,53 @@ std::string sceneJson(const Scene& scene) {
     OrderedJson root = {{sceneVersionField, sceneFormatVersion}};
     root.update(detail::fieldsJson(scene, scene.materials));
     return jsonLines(root);
+}
+
+Result<Scene> loadScene(const std::filesystem::path& path, const SceneSettings& settings) {
+    return loadText(path, limits::maxSceneFileBytes, [&](std::string_view text, std::string_view name) {
+        return readScene(text, name, settings);
+    });
+}
+
+const std::vector<Scene>& builtInScenes() {
+    static const std::vector<Scene> scenes = readEmbedded(
+        embeddedScenes(), [](std::string_view text, std::string_view name) { return readScene(text, name); });
+    return scenes;
+}
+
+const Scene* findBuiltInScene(std::string_view name) {
+    const auto& scenes = builtInScenes();
+    const auto found = std::ranges::find_if(scenes, [&](const Scene& s) { return s.name == name; });
+    return found == scenes.end() ? nullptr : &*found;
+}
+
+Result<Scene> findScene(const std::string& nameOrPath, const SceneSettings& settings) {
+    if (isJsonPath(nameOrPath)) return loadScene(nameOrPath, settings);
+    for (const EmbeddedFile& file : embeddedScenes())
+        if (file.name == nameOrPath + ".json") return readScene(file.text, nameOrPath, settings);
+    return Failure{"no scene " + inQuotes(nameOrPath) + " (see physvib scenes)"};
+}
+
+namespace {
+
+constexpr std::size_t headBytes = 1 << 16; // long sessions have hundreds of megabytes; the field begins them
+
+constexpr std::array<std::pair<std::string_view, FileKind>, 4> fields{
+    // a session's desk has a layout, and a plug-in's state a scene
+    {{"\"physvib_plugin_state\"", FileKind::pluginState},
+     {"\"physvib_session\"", FileKind::session},
+     {"\"physvib_scene\"", FileKind::scene},
+     {"\"extent_m\"", FileKind::layout}}};
+
+} // namespace
+
+FileKind fileKind(const std::filesystem::path& path) {
+    std::string head(headBytes, '\0');
+    if (const auto file = openRegular(path, std::numeric_limits<std::size_t>::max()))
+        head.resize(std::fread(head.data(), 1, head.size(), file.value.stream.get()));
+    for (const auto& [field, kind] : fields)
+        if (head.find(field) != std::string::npos) return kind;
+    return FileKind::unknown;
 }
 
 } // namespace physvib

@@ -11,6 +11,7 @@
 #include <vector>
 
 namespace physvib {
+
 /// The version of the format that is written, and the newest that is read.
 constexpr int sceneFormatVersion = 2; // 2: change, join, unjoin; slider, slack; restitution of a fixture
 
@@ -42,5 +43,11 @@ const Scene* findBuiltInScene(std::string_view name);
 
 /// A built-in scene by its name, else the scene of the file. M only.
 Result<Scene> findScene(const std::string& nameOrPath, const SceneSettings& settings = {});
+
+enum class FileKind { unknown, session, scene, layout, pluginState };
+
+/// By a field that every file of its kind has; the file may still be invalid. Unknown also if it cannot be
+/// read. Message thread (M) only.
+FileKind fileKind(const std::filesystem::path& path);
 
 } // namespace physvib

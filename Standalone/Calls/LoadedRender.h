@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One render from its inputs to its events: what the renderer and the outputs need to know.
 #pragma once
-#include "Calls/RenderOptions.h"
+#include "Calls/CallOptions.h"
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Core/CollisionEvent.h"
 #include "Core/EventShaping.h"
@@ -14,12 +14,13 @@
 #include "Lab/Study/Coupling.h"
 #include "Live/Documents/SessionFile.h"
 #include "Live/Recordings/LoadRecordings.h"
+#include "Live/Session/SessionSetup.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/PartNames.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneValidation.h"
-#include "Scene/World/RunSettings.h"
-#include "System/ExitCode.h"
+#include "Scene/World/Simulation.h"
+#include "System/Process.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -297,6 +298,39 @@ inline int takeScene(LoadedRender& job) {
     job.scene = std::move(scene.value);
     for (const std::string& warning : sceneWarnings(*job.scene)) tell("warning: " + name + ": " + warning);
     return exitDone;
+}
+
+/// One event per material with a frequency. In a live session any material may collide, so all of them count.
+inline std::vector<CollisionEvent> soundsOf(const Scene& scene) {
+    std::vector<CollisionEvent> sounds;
+    for (const Material& m : scene.materials) {
+        if (!(m.frequencyHz > 0.0)) continue;
+        CollisionEvent& sound = sounds.emplace_back();
+        sound.frequencyHz = m.frequencyHz;
+        sound.decayPerSecond = m.decayPerSecond;
+        sound.sound = soundOfMaterial(m.name);
+    }
+    return sounds;
+}
+
+/// Session setup of a job with a scene.
+inline SessionSetup sessionSetup(const LoadedRender& job) {
+    SessionSetup setup;
+    setup.scene = *job.scene;
+    const RunSettings run = job.run();
+    setup.seed = run.seed;
+    setup.stepsPerSecond = run.stepsPerSecond;
+    setup.timing = run.timing;
+    setup.location = run.location;
+    setup.channels = job.channels();
+    setup.panner = job.panner();
+    setup.layout = job.layout;
+    setup.equalised = job.equalised();
+    setup.shaping = job.shaping();
+    setup.recordings = job.feltRecordings();
+    setup.limiterEnabled = job.options.limiting == Limiting::on;
+    setup.normalisesBlocks = job.options.limiting == Limiting::blocks;
+    return setup;
 }
 
 } // namespace physvib

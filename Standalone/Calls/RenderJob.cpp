@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Validates a render job before any file is read.
 #include "Calls/RenderJob.h"
-#include "Calls/SessionMovie.h"
+#include "Calls/MovieOutput.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>

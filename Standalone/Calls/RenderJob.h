@@ -4,11 +4,12 @@
 #include "Core/EventShaping.h"
 #include "Core/Modes/InstructionSet.h"
 #include "Core/PanningLaws.h"
+#include "Io/Text/NumberText.h"
 #include "Live/Session/OfflineRender.h"
 #include "Live/Session/OnsetMarks.h"
 #include "Scene/FieldSize.h"
 #include "Scene/SceneFile.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -107,5 +108,13 @@ std::string renderInputFault(const RenderJob& job);
 
 /// Also checks the output options.
 std::string renderFault(const RenderJob& job);
+
+/// "12 pulses", or "12 pulses for 14 onsets: 2 came within 0.5 ms of another".
+inline std::string markWords(const OnsetMarks& marks) {
+    const std::string words = counted(marks.made(), "pulse");
+    if (marks.shared() == 0) return words;
+    return words + " for " + std::to_string(marks.made() + marks.shared()) +
+           " onsets: " + std::to_string(marks.shared()) + " came within 0.5 ms of another";
+}
 
 } // namespace physvib

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Creates a movie of a session: first its events, then its samples, then the pictures.
-#include "Calls/SessionMovie.h"
 #include "Calls/MovieOutput.h"
 #include "Calls/RenderJob.h"
 #include "Io/Disk/FileClash.h"

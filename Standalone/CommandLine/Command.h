@@ -2,7 +2,7 @@
 // A command of the program: its options and its function. Main.cpp lists all commands.
 #pragma once
 #include "Options/OptionTable.h"
-#include "System/ExitCode.h"
+#include "System/Process.h"
 #include <functional>
 #include <memory>
 #include <type_traits>

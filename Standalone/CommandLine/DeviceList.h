@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Audio devices of this machine, for the list of `devices` and the suggestion of `play`.
+// Audio devices of this machine, for the list of `devices` and the suggestion of `play`; that of a DualSense
+// controller, and the switch of its coils to audio.
 #pragma once
+#include "Io/Result.h"
 #include "Live/Devices/AudioDevice.h"
+#include "Live/Pads/DualSense.h"
+#include "Live/Pads/GamePads.h"
+#include <chrono>
 #include <ostream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace physvib {
@@ -31,6 +37,43 @@ inline std::string proposedCall(const std::string& scene, const std::vector<Audi
     for (int output = 2; output <= count; ++output) map += ',' + std::to_string(output);
     return call + name + (count < 4 ? " --layout phone" + std::to_string(count) : std::string{}) + " --map " +
            map;
+}
+
+/// Name for --device that selects it with any driver.
+inline constexpr const char* dualSenseDeviceName = "dualsense";
+
+/// "type:name" of the first one with four outputs; or one line if there is none, or if its system profile
+/// hides two outputs. Message thread.
+inline Result<std::string> dualSenseDevice(const std::vector<AudioDeviceName>& devices) {
+    std::string narrow;
+    for (const AudioDeviceName& device : devices) {
+        if (!dualsense::isDevice(device.name)) continue;
+        if (device.channels >= dualsense::outputs) return device.type + ":" + device.name;
+        narrow = device.type + ":" + device.name + ": expected four outputs, found " +
+                 std::to_string(device.channels) + ": its profile hides the coils (Docs/pads.md)";
+    }
+    return Failure{narrow.empty() ? "--device dualsense: no sound device of a DualSense is there; it has one "
+                                    "by USB; by Bluetooth: --device DUALSENSE:auto"
+                                  : narrow};
+}
+
+/// Sends the report that switches the coils to audio; empty, or one error line. Coils are in audio mode from
+/// connection until the first rumble command. Message thread; waits at most half a second for the controller.
+inline std::string giveCoilsToSound() {
+    GamePads pads{GamePads::Driver::sdl};
+    if (!pads.fault().empty()) return pads.fault();
+    constexpr auto report = dualsense::coilsToSound();
+    for (int i = 0; i < 50; ++i) {
+        pads.update();
+        for (const GamePadInfo& info : pads.list())
+            if (auto pad = info.isDualSense ? pads.open(info.name) : nullptr)
+                return pad->sendEffect(report.data(), static_cast<int>(report.size()))
+                           ? std::string{}
+                           : info.name + ": it did not take the report that gives its coils to sound";
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+    return "the DualSense's own controls are not there: its coils play sound unless something has made it "
+           "rumble since it was plugged in";
 }
 
 } // namespace physvib

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Main program of `physvib`: list of commands, and error messages for invalid calls.
-#include "Calls/CallFiles.h"
+#include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "Live/Devices/AudioDevice.h"
+#include "Live/Devices/DeviceThread.h"
+#include "Options/OptionTable.h"
 #include "Options/Parser.h"
 #include "Options/Reference.h"
 #include "System/Process.h"

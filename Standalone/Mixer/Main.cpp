@@ -4,8 +4,7 @@
 #include "Live/Devices/AudioDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/MixerWindow.h"
-#include "Options/Reference.h"
-#include "System/Interrupt.h"
+#include "Options/OptionTable.h"
 #include "System/Process.h"
 #include <iostream>
 

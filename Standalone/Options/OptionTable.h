@@ -2,8 +2,10 @@
 // Table of a program's options: each entry has the option's name, help text, valid values and target. The
 // parser, --help, manual pages and completions are generated from it.
 #pragma once
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <list>
 #include <optional>
@@ -135,5 +137,41 @@ public:
 
 /// Adds options from the usage text of a program without a parser. Message thread.
 void addUsage(OptionTable& program, std::string_view usage);
+
+/// Appends the comma-separated numbers of `text`; false if it is empty or contains anything else.
+template <class Number>
+bool parseNumbers(const std::string& text, std::vector<Number>& numbers) {
+    const char* const end = text.data() + text.size();
+    for (const char* at = text.data();; ++at) {
+        Number number{};
+        const auto [stop, error] = std::from_chars(at, end, number);
+        if (error != std::errc{} || (stop != end && *stop != ',')) return false;
+        numbers.push_back(number);
+        at = stop;
+        if (at == end) return true;
+    }
+}
+
+/// Result of parsing; if `fault` is empty, the targets of the table are set.
+struct ParsedWords {
+    std::string fault;   ///< error in one line
+    std::string unknown; ///< the first unknown argument
+    std::string help;    ///< output of --help or --version; if set, `fault` is not an error
+
+    /// The error as printed.
+    std::string reason() const { return unknown.empty() ? fault : "unknown: " + unknown; }
+};
+
+/// Parses a program's arguments. Message thread.
+ParsedWords parseArguments(OptionTable& table, int argc, char** argv);
+
+/// Parses a call given as text without the program's name: "render drop --law=log". Message thread.
+ParsedWords parseText(OptionTable& table, const std::string& call);
+
+/// Option that requests the reference, followed by a folder. Undocumented: only the build uses it.
+inline constexpr const char* referenceWord = "--reference";
+
+/// Writes man1/, md/ (Docs/commands.md), bash/, zsh/ and fish/ into the folder. Empty, or one error line. M.
+std::string writeReference(const OptionTable& program, const std::filesystem::path& folder);
 
 } // namespace physvib

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Declares a table's options in CLI11 and copies the results back.
-#include "Options/Parser.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/NameList.h"
+#include "Options/OptionTable.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <iostream>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes the reference files of a program.
-#include "Options/Reference.h"
+// Writes the reference of a program for installation: manual pages and completions for bash, zsh and fish.
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NameList.h"
+#include "Options/OptionTable.h"
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -82,39 +82,6 @@ std::string markdownPage(const OptionTable& program) {
     return out.str();
 }
 
-std::string writeInto(const std::filesystem::path& folder, const std::string& name, const std::string& text) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    return error ? folder.string() + ": cannot be made: " + error.message() : writeFile(folder / name, text);
-}
-
-std::string writePages(const OptionTable& program, const std::filesystem::path& folder) {
-    std::vector<std::string> pages{pageName(program)};
-    for (const OptionTable& command : program.commands) pages.push_back(pageName(command));
-    if (auto error = writeInto(folder, pages.front() + ".1", manPage(program, pages)); !error.empty())
-        return error;
-    for (const OptionTable& command : program.commands)
-        if (auto error = writeInto(folder, pageName(command) + ".1", manPage(command, {pages.front()}));
-            !error.empty())
-            return error;
-    return {};
-}
-
-} // namespace
-
-std::string writeReference(const OptionTable& program, const std::filesystem::path& folder) {
-    if (auto error = writePages(program, folder / "man1"); !error.empty()) return error;
-    if (auto error = writeInto(folder / "md", program.words + ".md", markdownPage(program)); !error.empty())
-        return error;
-    if (auto error = writeInto(folder / "bash", program.words, bashCompletion(program)); !error.empty())
-        return error;
-    if (auto error = writeInto(folder / "zsh", "_" + program.words, zshCompletion(program)); !error.empty())
-        return error;
-    return writeInto(folder / "fish", program.words + ".fish", fishCompletion(program));
-}
-
-namespace {
-
 /// Escapes text for man: hyphens can be copied, and no line is read as a request.
 std::string shown(std::string_view text) {
     std::string out;
@@ -167,6 +134,13 @@ void writeCall(std::ostream& out, const OptionTable& command) {
 void writeOptions(std::ostream& out, const OptionTable& command) {
     for (const Option& option : command.options)
         if (!option.meaning.empty()) writeOption(out, option);
+}
+
+/// "physvib render" as "physvib-render", the name of its page.
+std::string pageName(const OptionTable& command) {
+    std::string name = command.words;
+    std::ranges::replace(name, ' ', '-');
+    return name;
 }
 
 /// Commands of a program have pages of their own; subcommands are on the page of their command.
@@ -224,14 +198,7 @@ std::string_view descriptionOf(std::string_view page) {
     return found == descriptions.end() ? std::string_view{} : found->text;
 }
 
-} // namespace
-
-std::string pageName(const OptionTable& command) {
-    std::string name = command.words;
-    std::ranges::replace(name, ' ', '-');
-    return name;
-}
-
+/// A manual page in roff, with the options of the command and its subcommands. `pages` are listed at the end.
 std::string manPage(const OptionTable& command, const std::vector<std::string>& pages) {
     std::ostringstream out;
     out << ".TH " << shown(capitals(pageName(command))) << " 1 \"\" \"PhysVib " << PHYSVIB_VERSION
@@ -255,10 +222,8 @@ std::string manPage(const OptionTable& command, const std::vector<std::string>& 
     return out.str();
 }
 
-// Writes completion scripts for bash, zsh and fish. The bash and zsh scripts determine the command from the
-// words typed so far.
-
-namespace {
+// Completion scripts for bash, zsh and fish; values without a list complete to files. The bash and zsh
+// scripts determine the command from the words typed so far.
 
 using Visit = std::function<void(const OptionTable&)>;
 
@@ -353,8 +318,6 @@ std::string fishOption(const Option& option) {
     return words;
 }
 
-} // namespace
-
 std::string bashCompletion(const OptionTable& program) {
     std::ostringstream out;
     heading(out, program);
@@ -417,6 +380,37 @@ std::string fishCompletion(const OptionTable& program) {
         for (const Option& option : command.options) out << begin << fishOption(option) << '\n';
     });
     return out.str();
+}
+
+std::string writeInto(const std::filesystem::path& folder, const std::string& name, const std::string& text) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    return error ? folder.string() + ": cannot be made: " + error.message() : writeFile(folder / name, text);
+}
+
+std::string writePages(const OptionTable& program, const std::filesystem::path& folder) {
+    std::vector<std::string> pages{pageName(program)};
+    for (const OptionTable& command : program.commands) pages.push_back(pageName(command));
+    if (auto error = writeInto(folder, pages.front() + ".1", manPage(program, pages)); !error.empty())
+        return error;
+    for (const OptionTable& command : program.commands)
+        if (auto error = writeInto(folder, pageName(command) + ".1", manPage(command, {pages.front()}));
+            !error.empty())
+            return error;
+    return {};
+}
+
+} // namespace
+
+std::string writeReference(const OptionTable& program, const std::filesystem::path& folder) {
+    if (auto error = writePages(program, folder / "man1"); !error.empty()) return error;
+    if (auto error = writeInto(folder / "md", program.words + ".md", markdownPage(program)); !error.empty())
+        return error;
+    if (auto error = writeInto(folder / "bash", program.words, bashCompletion(program)); !error.empty())
+        return error;
+    if (auto error = writeInto(folder / "zsh", "_" + program.words, zshCompletion(program)); !error.empty())
+        return error;
+    return writeInto(folder / "fish", program.words + ".fish", fishCompletion(program));
 }
 
 } // namespace physvib

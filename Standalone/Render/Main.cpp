@@ -7,10 +7,10 @@
 #include "Io/Wav/WavSink.h"
 #include "Live/Session/OfflineRender.h"
 #include "Scene/EventsCsv.h"
+#include "Scene/FieldSize.h"
 #include "Scene/LayoutFile.h"
 #include "Scene/SceneFile.h"
-#include "Scene/SilentWords.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <csignal>
@@ -20,7 +20,8 @@
 #include <physvib/Version.h>
 #include <string>
 #if PHYSVIB_PICTURES
-#include "RenderedPicture.h"
+#include "Io/Disk/AtomicFile.h"
+#include "Pictures/RenderPicture.h"
 #endif
 
 // Range check for numeric options that rejects "nan", which CLI11's own checks accept, and whose message has
@@ -40,6 +41,54 @@ CLI::Validator inRange(T low, T high, const std::string& unit = "") {
             },
             range};
 }
+
+#if PHYSVIB_PICTURES
+/// Draws the picture of a render from the samples, which it receives as they are rendered. Message thread.
+class RenderedPicture {
+public:
+    /// Checks that the file can be written; see error(). `events` outlive this object.
+    RenderedPicture(const std::string& path, std::span<const CollisionEvent> events, int channels,
+                    int sampleRateHz, std::int64_t frames)
+        : file_{path}
+        , events_{events}
+        , sampleRateHz_{sampleRateHz}
+        , whole_{channels, 0, frames}
+        , zoom_{zoomOf(events, channels, sampleRateHz)} {}
+
+    /// Empty, or one line with file and reason.
+    const std::string& error() const noexcept { return file_.error(); }
+
+    /// Appends frames of each channel.
+    void take(const float* const* channels, int frames) {
+        whole_.add(channels, frames);
+        zoom_.add(channels, frames);
+    }
+
+    /// Draws the picture with the texts of `words`; adds events and samples. Returns error().
+    const std::string& draw(PictureInput words) {
+        words.events = events_;
+        words.waveform = &whole_;
+        words.zoom = &zoom_;
+        words.sampleRateHz = sampleRateHz_;
+        words.durationSeconds = static_cast<double>(whole_.frameCount()) / sampleRateHz_;
+        return file_.write(picturePng(words));
+    }
+
+    /// Moves the file to its final name. Returns error().
+    const std::string& commit() { return file_.commit(); }
+
+private:
+    static WaveformEnvelope zoomOf(std::span<const CollisionEvent> events, int channels, int sampleRateHz) {
+        const FrameWindow window = zoomWindow(events, sampleRateHz);
+        return {channels, window.firstFrame, window.frameCount};
+    }
+
+    AtomicFile file_;
+    std::span<const CollisionEvent> events_;
+    int sampleRateHz_;
+    WaveformEnvelope whole_, zoom_;
+};
+#endif
 } // namespace physvib
 using namespace physvib;
 

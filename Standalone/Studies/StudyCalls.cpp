@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Renders stimulus jobs directly; calls in text form are parsed with the program's option tables first.
 #include "Studies/StudyCalls.h"
-#include "Calls/CallFiles.h"
-#include "Calls/JobSession.h"
-#include "Calls/StimulusOptions.h"
+#include "Calls/CallOptions.h"
+#include "Calls/LoadedRender.h"
 #include "Core/Units.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/Stimulus.h"
 #include "Lab/Study/StudyRun.h"
 #include "Live/Session/SessionRender.h"
+#include "Live/Session/StimulusRender.h"
+#include "Options/OptionTable.h"
 #include "Options/Parser.h"
 #include "Scene/EventsCsv.h"
 #include <algorithm>

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// System interface of the programs: start, standard streams, signals, child processes and end. Implemented
-// per system in ProcessPosix.cpp and ProcessWindows.cpp.
+// System interface of the programs: start, standard streams, signals, child processes, exit codes and end.
+// Implemented per system in ProcessPosix.cpp and ProcessWindows.cpp.
 #pragma once
 #include "Io/Result.h"
+#include "Io/Text/CleanText.h"
+#include <atomic>
 #include <cstddef>
 #include <functional>
+#include <iostream>
 #include <optional>
 #include <span>
 #include <string>
@@ -69,5 +72,30 @@ bool hasDisplay() noexcept;
 
 /// Path of another program of PhysVib: beside this one, else by the system's search path. Message thread.
 std::string ownProgram(const std::string& name);
+
+inline std::atomic<bool> interrupted{false}; // read in every block by the device callback, so that output
+                                             // becomes silent before anything else ends
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal may set it");
+
+/// Installs handlers after which these signals only set `interrupted`. A second signal, or 0.8 s without an
+/// end after the first, terminates the program as that signal does. Recorded files do not depend on this,
+/// since they are complete at any moment. A closed reader of standard output does not end the program,
+/// because the end of playback must still be reported. Message thread.
+void heedInterrupts();
+
+enum ExitCode : int {
+    exitDone = 0,
+    exitFailed = 1, ///< a file, device or render failed; one line on stderr says why
+    exitUsage = 2   ///< the arguments are invalid
+};
+
+/// Prints one line on stderr, with unprintable characters replaced.
+inline void tell(std::string_view words) { std::cerr << "physvib: " + cleanLine(words) + '\n'; }
+
+/// Prints the line and returns the exit code.
+inline int leave(ExitCode code, std::string_view reason) {
+    tell(reason);
+    return code;
+}
 
 } // namespace physvib

@@ -1,17 +1,139 @@
 // SPDX-License-Identifier: MIT
-// Steps the world, applies pulls, and renders with the output latency.
-#include "PageWorld.h"
+// A running scene and its haptic output, on the thread that renders the audio; and the functions of the
+// WebAssembly module that the page calls, besides the motor controllers in Source/Api/JavaScript. On an error
+// they do not return (js::refuse), and the page discards the instance.
+#include "Api/JavaScript/Exports.h"
+#include "Core/ClockLaw.h"
+#include "Core/CollisionEvent.h"
+#include "Core/ControlQueue.h"
+#include "Core/HapticRenderer.h"
+#include "Core/PanningLaws.h"
 #include "Formats/ClipFile.h"
+#include "Formats/ClipSound.h"
+#include "Formats/HjifFile.h"
 #include "Formats/StrikeClip.h"
+#include "Io/Result.h"
+#include "Io/Text/QrCode.h"
 #include "Measure/HitExcerpt.h"
 #include "Scene/EventsCsv.h"
+#include "Scene/SceneEdits.h"
+#include "Scene/SceneFile.h"
+#include "Scene/World/InputCheck.h"
 #include "Scene/World/SceneCast.h"
+#include "Scene/World/ScenePlayer.h"
+#include "Scene/World/Simulation.h"
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <deque>
+#include <memory>
+#include <optional>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace physvib {
+
+// File that a page opens: a scene, an event list or a clip, selected by its name.
+
+/// A world and the events played in it: none for a scene, its events for a list, and one event that stands
+/// for the samples of a clip.
+struct PageFile {
+
+    Scene scene;
+    std::vector<CollisionEvent> strikes; ///< sorted by time
+    std::vector<float> samples;          ///< at the renderer's rate
+};
+
+/// `name` ends in .csv, .haptic or .ahap; otherwise it is a scene. A list without a field gets one of the
+/// given size, m. A clip plays in the centre of all actuators, as in `physvib render`.
+Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings,
+                              Vector fieldMetres, int sampleRateHz);
+
+/// The output equals the rendered file, delayed by outputLatencyFrames(). One thread has all roles of
+/// Live/Session/Session.h, and steps the world in the block that needs it.
+class PageWorld {
+public:
+    static constexpr int stepsPerSecond = 100;
+    static constexpr int fingers = 10; ///< maximum number of bodies held at once
+
+    /// Throws the exceptions of Simulation, or std::invalid_argument for a sample rate or number of outputs
+    /// that cannot be rendered.
+    PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int outputs);
+
+    /// The next frames, channel by channel.
+    const float* render(int frames);
+    std::int64_t outputLatencyFrames() const noexcept { return law_.outputLatencyFrames(); }
+
+    /// x, y, angle and presence (1 or 0) of each body of cast(), consecutively.
+    const std::vector<float>& poses();
+    const std::vector<BodyDescription>& cast() const noexcept { return cast_; }
+    const Scene& scene() const noexcept { return simulation_.scene(); }
+
+    /// The next impact played since the last call, and its time in seconds of the output; false if there is
+    /// none. Clips are not reported.
+    bool takeHit(CollisionEvent& hit, double& atSeconds);
+
+    void act(const Action& action); ///< applies now; fault() has its error
+    void steer(int way);
+    bool isPlayed() const noexcept { return player_.isThere(); }
+    const std::string& fault() const noexcept { return fault_; } ///< of the last input; empty: none
+
+    void grip(int finger, std::size_t body, Vector toMetres); ///< pulls the body there until letGo()
+    void letGo(int finger);
+
+    /// At most as many actuators as outputs; placed() applies changes.
+    EnchanterLayout& layout() noexcept { return layout_; }
+    /// Index in panningLaws; any other value: PanningLaw::automatic.
+    void placed(int law);
+
+    bool pop(CollisionEvent& event) noexcept { return take(events_, event); } // for the renderer, as the next
+    bool pop(RenderControl& change) noexcept { return controls_.pop(change); }
+    void done(const RenderControl& change) noexcept { controls_.done(change); }
+
+private:
+    struct Hand {
+        std::size_t body;
+        Vector to;
+    };
+    template <class T>
+    static bool take(std::deque<T>& from, T& one) noexcept {
+        if (from.empty()) return false;
+        one = from.front();
+        from.pop_front();
+        return true;
+    }
+    PhantomPanner panner() const noexcept;
+    // Frame 0 of the renderer.
+    std::int64_t firstFrame() const noexcept { return law_.outputLatencyFrames() - law_.limiterFrames; }
+    std::int64_t nsOf(std::int64_t frame) const noexcept;
+    void pull(const Hand& hand);
+    void stepTo(std::int64_t frame);
+
+    const PageFile file_;
+    RecordedContact clip_;   // its samples
+    std::size_t struck_ = 0; // of the file's strikes
+    Simulation simulation_;
+    InputCheck check_;
+    ScenePlayer player_;
+    std::vector<BodyDescription> cast_;
+    Vector fieldMetres_;
+    ClockLaw law_;
+    EnchanterLayout layout_;
+    std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
+    std::vector<CollisionEvent> made_;
+    std::deque<CollisionEvent> events_;
+    ControlQueue<256> controls_;
+    std::vector<float> samples_, poses_;
+    std::array<std::optional<Hand>, fingers> hands_;
+    PanningLaw panningLaw_ = PanningLaw::automatic;
+    std::string fault_;
+    std::size_t outputs_;
+    std::int64_t done_ = 0; // in frames
+};
+
 namespace {
 
 constexpr double pullPerSecond = 12.0, fastestPull = 12.0; // share of the remaining distance; m/s
@@ -180,3 +302,124 @@ Result<PageFile> readPageFile(std::string_view name, std::string_view text, cons
 }
 
 } // namespace physvib
+
+#define PHYSVIB_PAGE(name)                                                                                   \
+    __attribute__((export_name(#name))) page_##name // prefix, because the C library has a function open
+
+using namespace physvib;
+
+namespace {
+
+std::unique_ptr<PageWorld> world;
+SceneSettings chosen;
+std::optional<QrCode> code;
+
+const char* tell(std::string text) {
+    js::text() = std::move(text);
+    return js::text().c_str();
+}
+
+std::string_view builtIn(std::string_view name) {
+    for (const EmbeddedFile& file : embeddedScenes())
+        if (file.name == std::string{name} + ".json") return file.text;
+    js::refuse("expected the name of a scene that comes with PhysVib");
+}
+
+} // namespace
+
+extern "C" {
+
+/// Built-in scenes: name and description on alternating lines.
+const char* PHYSVIB_PAGE(sceneList)() {
+    std::string lines;
+    for (const Scene& scene : builtInScenes()) lines += scene.name + '\n' + scene.description + '\n';
+    return tell(std::move(lines));
+}
+
+/// Names of the panning laws, one per line.
+const char* PHYSVIB_PAGE(lawList)() {
+    std::string lines;
+    for (const std::string_view name : panningLawNames) (lines += name) += '\n';
+    return tell(std::move(lines));
+}
+
+/// Sets a variable of the scene that is opened next.
+void PHYSVIB_PAGE(choose)(const char* name, const char* value) { chosen.emplace_back(name, value); }
+
+/// Opens a file or, if `bytes` < 0, the built-in scene `name`. `byHand` disables scripted user
+/// input. An event list without a field gets a field of the given size, m.
+void PHYSVIB_PAGE(open)(const char* name, const char* text, int bytes, bool byHand, unsigned seed,
+                        int sampleRateHz, int outputs, double fieldWidth, double fieldHeight) {
+    const std::string_view given =
+        bytes < 0 ? builtIn(name) : std::string_view{text, static_cast<std::size_t>(bytes)};
+    const Vector field{fieldWidth, fieldHeight};
+    auto file = readPageFile(bytes < 0 ? "scene" : name, given, chosen, field, sampleRateHz);
+    if (!file) js::refuse(file.error);
+    if (byHand) file.value.scene = sceneForHands(std::move(file.value.scene));
+    world = std::make_unique<PageWorld>(std::move(file.value), seed, sampleRateHz, outputs);
+}
+
+/// The scene to draw, without script: bodies have the indices of poses(), and scripted ones are included.
+const char* PHYSVIB_PAGE(scene)() {
+    Scene shown = world->scene();
+    shown.bodies = world->cast();
+    shown.script.clear();
+    shown.inputs.clear();
+    return tell(sceneJson(shown));
+}
+
+/// For each variable of the scene: its name, its value and all choices, one per line, then an empty line.
+const char* PHYSVIB_PAGE(variables)() {
+    std::string lines;
+    for (const SceneVariable& variable : world->scene().variables) {
+        lines += variable.name + '\n' + variable.value + '\n';
+        for (const std::string& choice : variable.choices) lines += choice + '\n';
+        lines += '\n';
+    }
+    return tell(std::move(lines));
+}
+
+const char* PHYSVIB_PAGE(fault)() { return world->fault().c_str(); }
+const float* PHYSVIB_PAGE(render)(int frames) { return world->render(frames); }
+int PHYSVIB_PAGE(outputLatencyFrames)() { return static_cast<int>(world->outputLatencyFrames()); }
+const float* PHYSVIB_PAGE(poses)() { return world->poses().data(); }
+int PHYSVIB_PAGE(bodyCount)() { return static_cast<int>(world->cast().size()); }
+
+/// The next impact played since the last call: x, y, frequency, decay, amplitude, duration (s; 0: not
+/// limited), time of its first sample (s), and kind as in physvib.h; null if there is none.
+const double* PHYSVIB_PAGE(hit)() {
+    static std::array<double, 8> told;
+    CollisionEvent e;
+    double atSeconds = 0.0;
+    if (!world->takeHit(e, atSeconds)) return nullptr;
+    const double duration = static_cast<double>(e.durationNs) * 1e-9, kind = static_cast<int>(e.source.kind);
+    told = {e.x, e.y, e.frequencyHz, e.decayPerSecond, e.amplitude, duration, atSeconds, kind};
+    return told.data();
+}
+
+/// `finger` is in 0 to PageWorld::fingers - 1.
+void PHYSVIB_PAGE(grip)(int finger, int body, double xMetres, double yMetres) {
+    world->grip(finger, static_cast<std::size_t>(body), {xMetres, yMetres});
+}
+void PHYSVIB_PAGE(letGo)(int finger) { world->letGo(finger); }
+void PHYSVIB_PAGE(hold)(double angleRadians, double factor) { world->act(HoldAction{factor, angleRadians}); }
+void PHYSVIB_PAGE(steer)(int way) { world->steer(way); }
+bool PHYSVIB_PAGE(isPlayed)() { return world->isPlayed(); }
+void PHYSVIB_PAGE(sound)(int material, double frequencyHz, double decayPerSecond) {
+    world->act(SoundAction{material, frequencyHz, decayPerSecond});
+}
+
+/// Sets the actuators: first their number, then each place as shares of the layout's extent, then placed().
+void PHYSVIB_PAGE(enchanters)(int count) { world->layout().count = count; }
+void PHYSVIB_PAGE(place)(int enchanter, double x, double y) {
+    EnchanterLayout& layout = world->layout();
+    layout.places[static_cast<std::size_t>(enchanter)] = {x * layout.extentWidthMetres,
+                                                          y * layout.extentHeightMetres};
+}
+/// Applies the places with a law of lawList(); -1: default of `physvib render`.
+void PHYSVIB_PAGE(placed)(int law) { world->placed(law); }
+
+/// Creates a QR code of `text` and returns the modules per side, for qrModule(); 0: the text is too long.
+int PHYSVIB_PAGE(qrSide)(const char* text) { return code.emplace(text).side(); }
+bool PHYSVIB_PAGE(qrModule)(int x, int y) { return code->isDark(x, y); }
+}

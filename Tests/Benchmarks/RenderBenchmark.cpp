@@ -4,7 +4,7 @@
 #include "Io/Wav/WavSink.h"
 #include "Live/Session/OfflineRender.h"
 #include "Scene/SceneFile.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <benchmark/benchmark.h>
 #include <filesystem>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a table of options takes, refuses and shows.
 #include "Options/OptionTable.h"
-#include "Options/Parser.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 

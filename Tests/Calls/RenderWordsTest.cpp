@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A call of `render` is a value: each of its options is in it, and the same words are the same value.
-#include "Calls/RenderOptions.h"
+#include "Calls/CallOptions.h"
 #include "Io/Text/NumberText.h"
 #include "Options/OptionTable.h"
-#include "Options/Parser.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

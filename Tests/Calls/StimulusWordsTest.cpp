@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a row of a study says is read as the value that it was written from.
-#include "Calls/StimulusOptions.h"
+#include "Calls/CallOptions.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/Experiment.h"
-#include "Options/Parser.h"
+#include "Options/OptionTable.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

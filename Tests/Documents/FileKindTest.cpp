@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // A file says what it is, wherever it says so.
-#include "Scene/FileKind.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/SessionFile.h"
 #include "Scene/LayoutFile.h"

@@ -3,7 +3,7 @@
 // missing.
 #include "Live/Devices/AudioOutput.h"
 #include "FakeAudioDevice.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include "Session/FakeHost.h"
 #include <cmath>
 #include <gtest/gtest.h>

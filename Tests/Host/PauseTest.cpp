@@ -3,7 +3,7 @@
 #include "FakeAudioDevice.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Rig/Rig.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include "Session/FakeHost.h"
 #include <cmath>
 #include <functional>

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drivers take over from each other, and from blocks that step the world, at any moment.
+#include "Live/Devices/SimulationDriver.h"
 #include "Live/Rig/Rig.h"
 #include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include "Session/FakeHost.h"
 #include <atomic>
 #include <chrono>

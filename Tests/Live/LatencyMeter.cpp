@@ -9,7 +9,7 @@
 #include "MeterClient.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Scene/SceneFile.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The last part of what the mixer played as a movie: whole, or not there at all.
-#include "Calls/SessionMovie.h"
+#include "Calls/MovieOutput.h"
 #include "MixerTesting.h"
 #include "OnlyScript.h"
 #include "Scene/SceneFile.h"

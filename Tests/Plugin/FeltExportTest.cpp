@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What was felt as files, the window's keyboard, presets as files, and a controller that is learned.
 #include "FeltExport.h"
+#include "EditorPanels.h"
 #include "Formats/ClipFile.h"
-#include "MidiPanels.h"
 #include "PluginEditor.h"
 #include "PluginFiles.h"
 #include "PluginTesting.h"

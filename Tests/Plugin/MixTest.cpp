@@ -5,7 +5,7 @@
 #include "Live/Session/OfflineRender.h"
 #include "PluginTesting.h"
 #include "Scene/ActuatorFile.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include "TestPlaces.h"
 
 namespace physvib {

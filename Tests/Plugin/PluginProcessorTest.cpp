@@ -2,7 +2,7 @@
 // The processor in its hosts' hands: bounces, rates, blocks, suspension, bypass, many instances.
 #include "Live/Session/OfflineRender.h"
 #include "PluginTesting.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 
 namespace physvib {
 namespace {

@@ -4,8 +4,8 @@
 #include "DropScene.h"
 #include "Scene/SceneValidation.h"
 #include "Scene/World/InputCheck.h"
-#include "Scene/World/RunSettings.h"
 #include "Scene/World/SceneCast.h"
+#include "Scene/World/Simulation.h"
 #include <gtest/gtest.h>
 #include <random>
 

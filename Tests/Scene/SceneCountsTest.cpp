@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What becomes of a scene's contacts is counted while it runs.
 #include "Scene/SceneFile.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

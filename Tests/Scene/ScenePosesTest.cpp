@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Where the bodies of a scene are, moment by moment: the same as if each moment were asked for alone.
 #include "Scene/SceneFile.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <memory>

@@ -7,7 +7,7 @@
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneFields.h"
 #include "Scene/SceneValidation.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <gtest/gtest.h>
 #include <limits>
 #include <memory>

@@ -2,7 +2,7 @@
 // OfflineRender: frame n is time n/rate, pieces do not matter, and the shipped scene has its level.
 #include "Live/Session/OfflineRender.h"
 #include "Scene/SceneFile.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // although the driver is delayed at random up to 50 ms and blocks vary from 1 to 2048 frames.
 #include "FakeHost.h"
 #include "Live/Session/Session.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numbers>

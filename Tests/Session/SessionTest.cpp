@@ -5,8 +5,8 @@
 #include "FakeHost.h"
 #include "Live/Session/OfflineRender.h"
 #include "Scene/EventsCsv.h"
-#include "Scene/World/RunSettings.h"
 #include "Scene/World/SceneCast.h"
+#include "Scene/World/Simulation.h"
 #include <algorithm>
 #include <atomic>
 #include <chrono>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the programs need of the system, by this program run again.
 #include "System/Process.h"
-#include "System/Interrupt.h"
 #include <chrono>
 #include <csignal>
 #include <cstdlib>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Contacts of a tick, as Godot's state of a body lists them after the solver.
 #include "Api/Godot/Meeting.h"
-#include "Api/Godot/Touching.h"
 #include "Api/Godot/Worlds.h"
 #include <algorithm>
 #include <cmath>

@@ -6,9 +6,13 @@
 #include "Formats/ClipFile.h"
 #include "Formats/StrikeClip.h"
 #include "Io/Text/NameList.h"
+#include "Io/Wav/WavHead.h"
+#include "Scene/EventsCsv.h"
 #include "Scene/LayoutFile.h"
+#include <physvib/Version.h>
 
 namespace physvib::js {
+
 namespace {
 
 Clip clip;
@@ -91,6 +95,20 @@ int PHYSVIB_JS(clip_write)(const char* name, int channel) {
 int PHYSVIB_JS(clip_is_mono)(const char* name) { return isMono(formatOf(name)) ? 1 : 0; }
 const char* PHYSVIB_JS(clip_label)(int channel) {
     return clip.channels[static_cast<std::size_t>(channel)].label.c_str();
+}
+
+/// Writes an event list with its field, if given, to text(); errors as in physvib.h.
+int PHYSVIB_JS(events_text)(const physvib_event* events, int count, double width, double height) {
+    std::vector<CollisionEvent> own;
+    if (const auto fault = api::readSorted(events, count, own); !fault.empty())
+        return api::fail(PHYSVIB_ERROR_ARGUMENT, fault);
+    text() = eventsCsv(own, {width, height}, {PHYSVIB_VERSION, {}});
+    return PHYSVIB_OK;
+}
+
+/// Writes the bytes before the samples of a WAV file to text().
+void PHYSVIB_JS(wav_head)(int channels, int rateHz, double frames) {
+    text() = wavHead(channels, rateHz, static_cast<std::int64_t>(frames) * channels * 4, {});
 }
 }
 

@@ -6,7 +6,7 @@
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/StudyTables.h"
-#include "Scene/JsonReader.h"
+#include "Scene/SceneJson.h"
 #include <algorithm>
 #include <set>
 

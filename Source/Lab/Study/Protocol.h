@@ -288,7 +288,7 @@ double stimulusCount(const ConditionPlan& condition) noexcept;
 
 // Validates the `physvib` calls in a protocol. Protocols are untrusted files. Their calls are run, and also
 // stand in every row of the trial file, where users copy them into a shell. So a call may only render and
-// read files below its folder. The options that write files are listed in Standalone/Calls/CallFiles.h.
+// read files below its folder. The options that write files are listed in Standalone/Calls/CallOptions.h.
 
 /// Of a call, including recordings; a row of the trial file holds the calls of all parts of a trial.
 constexpr std::size_t mostCallBytes = 2000;

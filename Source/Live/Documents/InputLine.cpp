@@ -4,7 +4,7 @@
 #include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/DocumentJson.h"
-#include "Scene/JsonReader.h"
+#include "Scene/SceneJson.h"
 #include <algorithm>
 #include <cmath>
 

@@ -6,9 +6,8 @@
 #include "Io/Disk/ReadFile.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/EventColumns.h"
-#include "Scene/JsonReader.h"
-#include "Scene/JsonWriter.h"
 #include "Scene/SceneEdits.h"
+#include "Scene/SceneJson.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 

@@ -7,7 +7,6 @@
 #include "Io/Result.h"
 #include "Live/Documents/Mix.h"
 #include "Live/Documents/SessionLog.h"
-#include "Scene/World/RunSettings.h"
 #include "Scene/World/Simulation.h"
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // Writes a session journal line by line, and reads one up to its last complete part.
 #include "Live/Documents/DocumentJson.h"
 #include "Live/Documents/SessionFile.h"
-#include "Scene/JsonReader.h"
+#include "Scene/SceneJson.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 #include <algorithm>

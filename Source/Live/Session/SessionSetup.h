@@ -7,7 +7,7 @@
 #include "Live/Session/ContactSounds.h"
 #include "Live/Session/OnsetMarks.h"
 #include "Scene/LayoutFile.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <array>
 #include <cstdint>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Editor operations on bodies with their joints: move, remove, copy, paste; and new empty scenes.
-#include "Scene/Drawing/BodyMotion.h"
+#include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/World/BodyMass.h"
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Editor operations on existing bodies (size, place, joints, copies), each as the actions of one edit.
 #pragma once
+#include "Core/PortableMath.h"
 #include "Io/Result.h"
 #include "Scene/Drawing/SceneDrawing.h"
 #include "Scene/Scene.h"
@@ -127,3 +128,33 @@ bool startsAsSource(const BodyDescription& body);
 Vector snapped(const Vector& place, double gridMetres);
 
 } // namespace physvib
+
+// Transform of points that move with a body, for edits of places and joints. Any thread.
+
+namespace physvib::detail {
+
+inline Vector turned(const Vector& v, double angle) {
+    const double c = portable::cos(angle), s = portable::sin(angle);
+    return {c * v.x - s * v.y, s * v.x + c * v.y};
+}
+
+/// Transform from one place of a body to another.
+class Motion {
+public:
+    Motion(const BodyPlace& from, const BodyPlace& to)
+        : from_{from}
+        , to_{to} {}
+    double angle() const { return to_.angleRadians - from_.angleRadians; }
+    Vector way(const Vector& axis) const { return turned(axis, angle()); }
+    Vector operator()(const Vector& place) const {
+        const Vector at = turned({place.x - from_.metres.x, place.y - from_.metres.y}, angle());
+        return {to_.metres.x + at.x, to_.metres.y + at.y};
+    }
+
+private:
+    BodyPlace from_, to_;
+};
+
+inline BodyPlace placeOf(const BodyDescription& body) { return {body.positionMetres, body.angleRadians}; }
+
+} // namespace physvib::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Creates joints, and adjusts joints to bodies that have moved.
 #include "Core/PortableMath.h"
-#include "Scene/Drawing/BodyMotion.h"
+#include "Scene/Drawing/BodyEdits.h"
 #include "Scene/SceneLimits.h"
 #include "Scene/World/BodyMass.h"
 #include <algorithm>

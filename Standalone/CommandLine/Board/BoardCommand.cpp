@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib board`: connects to a board and plays events on it.
-#include "Calls/RenderOptions.h"
+#include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "Core/Units.h"
 #include "Live/Devices/OutputMap.h"
@@ -12,6 +12,7 @@
 #include "Scene/SilentWords.h"
 #include "System/ExitCode.h"
 #include "System/Interrupt.h"
+#include "System/Process.h"
 #include "System/StandardStreams.h"
 #include "Wire/SelfTest.h"
 #include <chrono>

@@ -12,7 +12,7 @@
 #include "Measure/TextureExtractor.h"
 #include "Scene/MaterialTable.h"
 #include "Scene/SceneFields.h"
-#include "System/ExitCode.h"
+#include "System/Process.h"
 #include <algorithm>
 #include <cmath>
 #include <iostream>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Options for the rendering of beats, shared by `beats` and `play --beats`.
 #pragma once
-#include "CommandLine/Study/NumberList.h"
 #include "Host/Music/BeatDetector.h"
 #include "Io/Result.h"
 #include "Io/Text/NumberText.h"
@@ -12,8 +11,6 @@
 #include <string>
 
 namespace physvib {
-
-class OptionTable;
 
 struct BeatOptions {
     /// Actuator letters per band; unset: default.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib pads`: lists game controllers, and tests and calibrates their motors.
 #include "CommandLine/Command.h"
-#include "CommandLine/Pads/DualSenseDevice.h"
+#include "CommandLine/DeviceList.h"
 #include "Core/Pads/PadMotors.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NumberText.h"
@@ -9,7 +9,7 @@
 #include "Live/Devices/SinkTable.h"
 #include "Live/Pads/PadTrial.h"
 #include "Scene/PadFile.h"
-#include "System/Interrupt.h"
+#include "System/Process.h"
 #include <chrono>
 #include <iostream>
 #include <thread>

@@ -6,7 +6,6 @@
 #include "CommandLine/Play/InputListener.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Session/BoardLink.h"
-#include "System/ExitCode.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"
 #include <algorithm>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Creates the rig and its inputs for one call of `physvib play`.
 #include "CommandLine/Play/LivePlay.h"
+#include "Calls/RenderJob.h"
 #include "CommandLine/Play/InputListener.h"
-#include "CommandLine/Play/LiveBeats.h"
-#include "CommandLine/Render/MarkWords.h"
 #include "Core/Samples.h"
 #include "Core/Units.h"
 #include "Host/Osc/OscPort.h"

@@ -4,14 +4,100 @@
 #pragma once
 #include "Calls/LoadedRender.h"
 #include "Host/Music/BeatDetector.h"
+#include "Host/Music/BeatStrikes.h"
 #include "Host/Osc/OscPort.h"
+#include "Live/Devices/Taps.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Live/Rig/Rig.h"
+#include "Live/Session/Session.h"
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
+#include <vector>
 
 namespace physvib {
+
+/// A beat has the session time at which it was heard, so it is felt one output latency later. If the output
+/// latency is shorter than the detector's delay, every beat is late. Runs on its own thread.
+class LiveBeats {
+public:
+    /// Time that the output latency must cover in addition to a block and the limiter, i.e. ClockLaw's
+    /// longest gap and two steps together: the detector's delay, and the thread's maximum delay.
+    static constexpr double knownAfterSeconds = BeatDetector::mostDelaySeconds + 0.010;
+
+    /// Both references outlive this object. Message thread.
+    LiveBeats(Session& session, InputTap& inputs, const BeatVoices& voices, double sensitivity)
+        : session_{session}
+        , inputs_{inputs}
+        , voices_{voices}
+        , sensitivity_{sensitivity}
+        , thread_{[this] { run(); }} {}
+    ~LiveBeats() {
+        stop_ = true;
+        thread_.join();
+    }
+
+    std::uint64_t beats() const noexcept { return beats_.load(std::memory_order_relaxed); } ///< Any thread.
+
+private:
+    static constexpr std::chrono::milliseconds pause{1};
+    static constexpr std::int64_t nsPerSecond = 1'000'000'000;
+    static std::int64_t nsOf(std::int64_t frames, int rateHz) {
+        return frames / rateHz * nsPerSecond + frames % rateHz * nsPerSecond / rateHz;
+    }
+
+    void run() {
+        HeardPiece piece;
+        while (!stop_) {
+            while (inputs_.next(piece)) take(piece);
+            std::this_thread::sleep_for(pause);
+        }
+    }
+    // Restarts the detector if session time jumps, because input was lost or the device returned.
+    void take(const HeardPiece& piece) {
+        const std::int64_t expectedNs = beginNs_ + (detector_ ? nsOf(heardFrames_, rateHz_) : 0);
+        if (!detector_ || piece.rateHz != rateHz_ ||
+            std::abs(piece.sessionNs - expectedNs) > nsPerSecond / piece.rateHz)
+            begin(piece);
+        heardFrames_ += piece.count;
+        detector_->take(piece.sound(), [this](const BandOnset& onset) { strike(onset); });
+    }
+    void begin(const HeardPiece& piece) {
+        if (!detector_ || piece.rateHz != rateHz_)
+            detector_ = std::make_unique<BeatDetector>(piece.rateHz, sensitivity_);
+        else
+            detector_->reset();
+        rateHz_ = piece.rateHz;
+        beginNs_ = piece.sessionNs;
+        heardFrames_ = 0;
+    }
+    void strike(const BandOnset& onset) {
+        const PhantomPanner panner = session_.panner();
+        std::vector<CollisionEvent> strikes;
+        strikeBeat(onset, beginNs_ + nsOf(onset.frame, rateHz_), voices_, panner.layout(),
+                   panner.fieldWidthMetres(), panner.fieldHeightMetres(),
+                   [&](const CollisionEvent& e) { strikes.push_back(e); });
+        if (session_.submit({Strikes{strikes}, 0})) ++beats_;
+    }
+
+    Session& session_;
+    InputTap& inputs_;
+    const BeatVoices voices_;
+    const double sensitivity_;
+    std::unique_ptr<BeatDetector> detector_;
+    int rateHz_ = 0;
+    std::int64_t beginNs_ = 0, heardFrames_ = 0; // session time of its first sample; samples so far
+    std::atomic<std::uint64_t> beats_{0};
+    std::atomic<bool> stop_{false};
+    std::thread thread_;
+};
+
 struct LivePlay {
     RigSettings rig;
     double seconds = 10.0;

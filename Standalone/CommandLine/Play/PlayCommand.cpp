@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib play`: its options, and the setup of a live session.
-#include "Calls/JobSession.h"
-#include "Calls/RenderOptions.h"
+#include "Calls/CallOptions.h"
+#include "Calls/LoadedRender.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/DeviceList.h"
 #include "CommandLine/Music/BeatOptions.h"
-#include "CommandLine/Pads/DualSenseDevice.h"
-#include "CommandLine/Play/LiveBeats.h"
 #include "CommandLine/Play/LivePlay.h"
-#include "CommandLine/Study/NumberList.h"
 #include "Core/Units.h"
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/FileClash.h"
 #include "Live/Devices/AudioDevice.h"
+#include "Live/Pads/DualSense.h"
 #include "Live/Pads/PadReports.h"
+#include "Options/OptionTable.h"
 #include "Scene/SceneEdits.h"
 #include <algorithm>
 #include <numbers>

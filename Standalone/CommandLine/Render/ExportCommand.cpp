@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Events by the door of `render`, panned and drawn as curves, then as bytes.
-#include "Calls/RenderOptions.h"
+#include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "Io/Disk/FileClash.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The way of a render: inputs are read and checked, outputs opened, events made or taken, samples rendered,
 // and only when everything is written do the files take their places.
-#include "Calls/RenderOptions.h"
+#include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Render/RenderInputs.h"
 #include "CommandLine/Render/RenderOutputs.h"

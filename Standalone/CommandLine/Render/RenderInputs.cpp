@@ -6,7 +6,7 @@
 #include "Live/Session/SessionRender.h"
 #include "Scene/ActuatorFile.h"
 #include "Scene/EventsCsv.h"
-#include "Scene/FileKind.h"
+#include "Scene/SceneFile.h"
 #include <functional>
 
 namespace physvib {

@@ -2,13 +2,13 @@
 // Writing beside, then renaming; progress on a terminal only.
 #include "CommandLine/Render/RenderOutputs.h"
 #include "Calls/LoadedRender.h"
-#include "CommandLine/Render/MarkWords.h"
+#include "Calls/RenderJob.h"
 #include "Core/Limits.h"
 #include "Core/Units.h"
 #include "Io/Text/NumberText.h"
 #include "Pictures/RenderPicture.h"
 #include "Pictures/WaveformEnvelope.h"
-#include "Scene/SilentWords.h"
+#include "Scene/FieldSize.h"
 #include "System/Process.h"
 #include <algorithm>
 #include <cmath>

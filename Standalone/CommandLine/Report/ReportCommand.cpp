@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib report`: reads trial files and writes a folder, completely or not at all.
-#include "Calls/CallFiles.h"
+#include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Disk/AtomicFile.h"

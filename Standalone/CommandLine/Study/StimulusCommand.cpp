@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib stimulus`: renders a stimulus to a WAV file and a picture.
-#include "Calls/StimulusOptions.h"
+#include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Core/Limits.h"

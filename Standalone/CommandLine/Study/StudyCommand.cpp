@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command `physvib study`: runs studies with simulated observers or in the mixer, and checks them.
+#include "Calls/CallOptions.h"
 #include "Calls/RenderJob.h"
-#include "Calls/RenderOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
 #include "Io/Disk/ContentHash.h"

@@ -4,7 +4,7 @@
 #include "Io/Disk/AtomicFile.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Report/AnalysisScript.h"
-#include "System/ExitCode.h"
+#include "System/Process.h"
 #include <filesystem>
 #include <functional>
 #include <iostream>

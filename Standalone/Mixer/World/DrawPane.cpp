@@ -3,6 +3,7 @@
 #include "Mixer/World/DrawPane.h"
 #include "Mixer/Widgets/Parts.h"
 #include "Pictures/ShapeOutline.h"
+#include "Scene/Drawing/BodyEdits.h"
 #include "Scene/Drawing/BodyMotion.h"
 #include "Scene/SceneLimits.h"
 
