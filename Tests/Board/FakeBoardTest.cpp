@@ -135,8 +135,6 @@ TEST(BoardLinkWithAFakeBoard, GainsThatTheLineLosesComeAgainSoon) {
 
 // What a board is sent after a stop, and what is told of it after a call.
 
-constexpr std::int64_t ms = 1'000'000;
-
 /// From each state in which something is on its way to the board: nothing follows the stop, until something
 /// new is asked for.
 TEST(StoppedBoards, GetNothingOfWhatWasBefore) {

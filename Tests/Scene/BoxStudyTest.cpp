@@ -275,20 +275,18 @@ TEST(ShakeTheBox, ScriptRepeatsAfterAtLeastTwentySeconds) {
 
 // The fruit basket and the driven car are lively, well levelled, felt at every enchanter, and lose nothing.
 
-constexpr int seconds = 60;
-
-struct Run {
+struct SceneRun {
     const char* scene;
     std::uint32_t seed;
     int stepsPerSecond;
 };
-std::string nameOf(const testing::TestParamInfo<Run>& run) {
+std::string sceneRunName(const testing::TestParamInfo<SceneRun>& run) {
     std::string name = run.param.scene;
     std::erase(name, '-');
     return name + "Seed" + std::to_string(run.param.seed) + "At" + std::to_string(run.param.stepsPerSecond);
 }
-std::vector<Run> runs(std::uint32_t seedsAt100, std::uint32_t seedsAt1000) {
-    std::vector<Run> all;
+std::vector<SceneRun> sceneRuns(std::uint32_t seedsAt100, std::uint32_t seedsAt1000) {
+    std::vector<SceneRun> all;
     for (const char* scene : {"fruit-basket", "driving"}) {
         for (std::uint32_t seed = 1; seed <= seedsAt100; ++seed) all.push_back({scene, seed, 100});
         for (std::uint32_t seed = 1; seed <= seedsAt1000; ++seed) all.push_back({scene, seed, 1000});
@@ -298,7 +296,7 @@ std::vector<Run> runs(std::uint32_t seedsAt100, std::uint32_t seedsAt1000) {
 
 double decibels(double amplitude) { return 20.0 * std::log10(amplitude); }
 
-class LivelyScene : public testing::TestWithParam<Run> {
+class LivelyScene : public testing::TestWithParam<SceneRun> {
 protected:
     const Scene& scene = *findBuiltInScene(GetParam().scene);
     const std::vector<CollisionEvent> minute =
@@ -328,7 +326,7 @@ TEST_P(LivelyScene, IsFeltWithinItsField) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(SeedsAndRates, LivelyScene, testing::ValuesIn(runs(6, 2)), nameOf);
+INSTANTIATE_TEST_SUITE_P(SeedsAndRates, LivelyScene, testing::ValuesIn(sceneRuns(6, 2)), sceneRunName);
 
 class SceneLevel : public testing::TestWithParam<const char*> {};
 
@@ -364,7 +362,7 @@ TEST(SceneGuard, IsNotNeededByDrawing) {
     }
 }
 
-class TenMinutesOfScene : public testing::TestWithParam<Run> {};
+class TenMinutesOfScene : public testing::TestWithParam<SceneRun> {};
 
 TEST_P(TenMinutesOfScene, LoseNothingForGood) {
     const Scene& scene = *findBuiltInScene(GetParam().scene);
@@ -387,7 +385,7 @@ TEST_P(TenMinutesOfScene, LoseNothingForGood) {
     EXPECT_EQ(simulation.drops(), 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(SeedsAndRates, TenMinutesOfScene, testing::ValuesIn(runs(3, 0)), nameOf);
+INSTANTIATE_TEST_SUITE_P(SeedsAndRates, TenMinutesOfScene, testing::ValuesIn(sceneRuns(3, 0)), sceneRunName);
 
 } // namespace
 } // namespace physvib

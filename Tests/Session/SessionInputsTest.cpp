@@ -196,10 +196,6 @@ TEST(WaitingStrikes, AreForgottenFromATimeOnAndBounded) {
 // A session that is prepared again is like a new one, whatever was pending; one that continues at another
 // rate or latency loses nothing.
 
-using namespace test;
-constexpr int rate = hostRate, block = 480;
-using Kind = RenderControl::Kind;
-
 CollisionEvent knock() {
     return {.frequencyHz = 205, .decayPerSecond = 30, .amplitude = 0.5, .x = 3.2, .y = 1.8};
 }
