@@ -132,14 +132,6 @@ TEST(IntegerMap, EqualsAStandardMapThroughRandomEdits) {
     }
 }
 
-TEST(IntegerMap, UnknownKeysHaveNoValue) {
-    IntegerMap map;
-    EXPECT_EQ(map.find(7), IntegerMap::none);
-    map.erase(7);
-    map.set(7, 3);
-    EXPECT_EQ(map.find(8), IntegerMap::none);
-}
-
 // A sketch of a set of names: no is certain, and yes is rare of what is not there.
 
 std::uint64_t address(int i) { return 0x7F0000001000U + 16U * static_cast<std::uint64_t>(i); }

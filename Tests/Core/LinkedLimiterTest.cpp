@@ -185,12 +185,6 @@ TEST(LinkedLimiter, DisabledItOnlyDelaysByTheSameTime) {
     for (std::size_t n = limited.latency(); n < rate; ++n) ASSERT_EQ(out[0][n], in[0][n - limited.latency()]);
 }
 
-TEST(LinkedLimiter, BlockSizeDoesNotMatter) {
-    Limited a, b;
-    const Block in = noise(rate, 10, 11);
-    EXPECT_EQ(a(in, 1), b(in, 4096));
-}
-
 TEST(LinkedLimiter, SilenceThatIsToldIsSilenceThatIsSeen) {
     Limited told, seen;
     for (const double level : {10.0, 0.5, 3.0}) {

@@ -122,14 +122,6 @@ TEST(PhantomPanner, EnergySquaresSumToOneAndNoGainLeavesZeroToOne) {
         }
 }
 
-TEST(PhantomPanner, KnowsItsLawsByName) {
-    PanningLaw law{};
-    EXPECT_TRUE(panningLawNamed("log-outer", law));
-    EXPECT_EQ(law, PanningLaw::logOuter);
-    EXPECT_FALSE(panningLawNamed("quadratic", law));
-    EXPECT_EQ(nameOf(spreadBy(PanningLaw::logOuter)), "log-outer");
-}
-
 TEST(PhantomPanner, EveryLawFallsFromOneToZero) {
     for (const auto& one : panningLaws) {
         EXPECT_EQ(one.factor(0.0), 1.0) << one.name;
