@@ -220,7 +220,7 @@ PhantomPanner pannerOn(const Places& places, PanningLaw law = PanningLaw::automa
     return {layoutAt(places), law, 1.0, 1.0, 1.0};
 }
 
-PhantomPanner::Gains gainsFor(const PhantomPanner& panner, const ActuatorPlace& at, PartNumber part = 0) {
+PhantomPanner::Gains gainsAtPlace(const PhantomPanner& panner, const ActuatorPlace& at, PartNumber part = 0) {
     CollisionEvent event;
     event.x = at.xMetres, event.y = at.yMetres, event.z = at.zMetres;
     event.source.part = part;
@@ -303,14 +303,14 @@ TEST(TiltedCells, ThePlaceIsTheCentroidInAnyPlaneAndWhatIsBesideIsMovedOntoIt) {
                 };
                 const double share = random.uniform(0, 1);
                 const ActuatorPlace p = sumOf(sumOf({}, any(), share), any(), 1.0 - share);
-                const auto gains = gainsFor(panner, frame.at(p, random.uniform(-1, 1)));
+                const auto gains = gainsAtPlace(panner, frame.at(p, random.uniform(-1, 1)));
                 EXPECT_NEAR(distance(centroidOf(places, gains), frame.at(p)), 0.0, 1e-9) << flat.size();
                 double energy = 0.0;
                 for (const double gain : gains) energy += gain * gain;
                 EXPECT_NEAR(energy, 1.0, 1e-9);
             }
             for (std::size_t j = 0; j < places.size(); ++j)
-                EXPECT_NEAR(gainsFor(panner, places[j])[j], 1.0, 1e-6) << flat.size() << ' ' << j;
+                EXPECT_NEAR(gainsAtPlace(panner, places[j])[j], 1.0, 1e-6) << flat.size() << ' ' << j;
         }
 }
 
@@ -320,7 +320,7 @@ TEST(TiltedCells, PlanesOfTwoAxesPanAsThatOfXAndY) {
         for (const Frame& frame : {ahead, aside}) {
             const PhantomPanner there = pannerOn(frame.of(flat)), here = pannerOn(flat);
             for (const ActuatorPlace p : {ActuatorPlace{0.21, 0.13}, {0.8, 0.4}, {-0.3, 0.9}}) {
-                const auto expected = gainsFor(here, p), gains = gainsFor(there, frame.at(p));
+                const auto expected = gainsAtPlace(here, p), gains = gainsAtPlace(there, frame.at(p));
                 for (std::size_t j = 0; j < flat.size(); ++j)
                     EXPECT_NEAR(gains[j], expected[j], 1e-9) << flat.size() << ' ' << j;
             }
@@ -334,10 +334,10 @@ TEST(TiltedCells, WhatIsInNoPlaneGoesByDistanceAndNamesCanAskForCells) {
     bent[2].yMetres += 0.05, bent[3].zMetres += 0.05;
     EXPECT_EQ(pannerOn(bent).law(), PanningLaw::distance);
     const Places upright = Frame{{}, {0.0, 0.0, 1.0}, {1.0, 0.0, 0.0}}.of(row(4));
-    const auto gains = gainsFor(pannerOn(upright, PanningLaw::triangles), upright[1]);
+    const auto gains = gainsAtPlace(pannerOn(upright, PanningLaw::triangles), upright[1]);
     EXPECT_NEAR(gains[1], 1.0, 1e-6);
-    EXPECT_EQ(gainsFor(pannerOn(upright), {0.3, 0.2, 0.03}),
-              gainsFor(pannerOn(upright, PanningLaw::neighbours), {0.3, 0.2, 0.03}));
+    EXPECT_EQ(gainsAtPlace(pannerOn(upright), {0.3, 0.2, 0.03}),
+              gainsAtPlace(pannerOn(upright, PanningLaw::neighbours), {0.3, 0.2, 0.03}));
 }
 
 /// Tips of a hand, which are in no plane, and two more on the index, in a row with its tip.
@@ -357,7 +357,7 @@ TEST(TiltedCells, APartChoosesTheLawOfItsOwnShape) {
     EXPECT_EQ(panner.requestedLaw(), PanningLaw::automatic);
     EXPECT_EQ(panner.pannerOf(partNamed("index")).law(), PanningLaw::neighbours);
     const ActuatorPlace between = sumOf(sumOf({}, places[1], 0.7), places[5], 0.3);
-    const auto gains = gainsFor(panner, between, partNamed("index"));
+    const auto gains = gainsAtPlace(panner, between, partNamed("index"));
     EXPECT_NEAR(gains[1] * gains[1], 0.7, 1e-9);
     EXPECT_NEAR(gains[5] * gains[5], 0.3, 1e-9);
     for (const std::size_t other : {0U, 2U, 3U, 4U, 6U}) EXPECT_EQ(gains[other], 0.0);
