@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <sstream>
 #include <vector>
 
 namespace physvib {
@@ -130,6 +131,139 @@ TEST_F(CalibrateCommand, BadCallsAreUsageErrors) {
     refuses("calibrate --device x --out m.json --channel 0", 2, "--channel", 1);
     refuses("calibrate --device x --out m.json --level 3", 2, "--level", 1);
     refuses("calibrate --sweep s.wav --device x", 2, "--sweep stands alone", 1);
+}
+
+// `physvib material` as users and scripts hold on to it.
+
+class MaterialCommand : public test::CommandLine {
+protected:
+    /// What `render` makes of one hit on one enchanter.
+    void record(const std::string& hit, const std::string& seconds = "1") const {
+        write("hit.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n" + hit + "\n");
+        ASSERT_EQ(call("render --from-events hit.csv --layout phone1 --seconds " + seconds + " --out hit.wav")
+                      .exitCode,
+                  0);
+    }
+    /// 16 bits, one channel.
+    void writeWav(const std::string& name, std::uint32_t rate, std::uint32_t frames,
+                  const std::string& data) const {
+        const auto number = [](std::uint32_t value, std::size_t bytes) {
+            return std::string(reinterpret_cast<const char*>(&value), bytes);
+        };
+        write(name, "RIFF" + number(36 + 2 * frames, 4) + "WAVEfmt " + number(16, 4) + number(1, 2) +
+                        number(1, 2) + number(rate, 4) + number(2 * rate, 4) + number(2, 2) + number(16, 2) +
+                        "data" + number(2 * frames, 4) + data);
+    }
+};
+
+TEST_F(MaterialCommand, PrintsFrequencyAndDecayOfARenderedHit) {
+    record("0.1,349,106.99,0.8,0,0");
+    const auto outcome = call("material hit.wav --band 90-1000");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    std::istringstream lines{outcome.out};
+    std::string header, row, more;
+    std::getline(lines, header);
+    std::getline(lines, row);
+    EXPECT_EQ(header, "frequency_hz,decay_per_s");
+    EXPECT_FALSE(std::getline(lines, more));
+    EXPECT_NEAR(std::stod(row), 349, 0.17);
+    EXPECT_NEAR(std::stod(row.substr(row.find(',') + 1)), 106.99, 0.53);
+    EXPECT_NE(outcome.err.find("confidence high"), std::string::npos) << outcome.err;
+    EXPECT_EQ(call("material hit.wav --band 90-1000").out, outcome.out);
+    EXPECT_EQ(call("material hit.wav --rule two-peaks").exitCode, 0);
+}
+
+TEST_F(MaterialCommand, ListsTheThreeMeasuredPairsAndTheirSource) {
+    const auto outcome = call("material --list");
+    EXPECT_EQ(outcome.exitCode, 0);
+    EXPECT_EQ(outcome.out.rfind("# Table 5.1", 0), 0u) << outcome.out;
+    for (const char* pair :
+         {"\nconcrete block,80,34.13\n", "\nwooden board,349,106.99\n", "\nsteel plate,430,11.97\n"})
+        EXPECT_NE(outcome.out.find(pair), std::string::npos) << pair;
+}
+
+TEST_F(MaterialCommand, BadRecordingsAreOneLine) {
+    record("0.1,349,106.99,0,0,0");
+    refuses("material hit.wav", 1, "hit.wav: expected a hit, found silence", 2);
+    write("text.wav", "not a recording");
+    refuses("material text.wav", 1, "text.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 3);
+    refuses("material none.wav", 1, "none.wav: cannot be read", 3);
+    writeWav("one.wav", 48000, 1, {"\1\2", 2});
+    refuses("material one.wav", 1, "one.wav: expected at least 0.01 s, found 1 sample", 4);
+    writeWav("hour.wav", 5000, 3600 * 5000, std::string(2u * 3600 * 5000, '\0'));
+    refuses("material hour.wav", 1, "hour.wav: expected at most 600 s", 5);
+    writeWav("none-in-it.wav", 48000, 0, "");
+    refuses("material none-in-it.wav", 1, "none-in-it.wav: expected samples, found none", 6);
+}
+
+/// A crate is pushed over a ridged floor at a steady speed, as `render` plays it.
+constexpr const char* ridges =
+    R"({"physvib_scene": 1, "name": "ridges", "description": "a crate on ridges", "field_m": [8, 4], "gravity_m_per_s2": [0, -10], "normalisation": {"a_star_s_per_m": 1, "hand_mass_kg": 0},
+  "materials": [{"name": "steel", "density_kg_per_m2": 10, "friction": 0, "restitution": 0, "frequency_hz": 349, "decay_per_s": 107, "grain_m": 0.004, "grain_pattern": "regular", "roughness": 0.5},
+                {"name": "felt", "density_kg_per_m2": 10, "friction": 0, "restitution": 0}],
+  "bodies": [{"name": "floor", "type": "static", "position_m": [4, 1], "mass_kg": 20, "fixtures": [{"shape": "box", "size_m": [8, 0.2], "material": "steel", "camera": true}]},
+             {"name": "ball", "position_m": [1, 1.3], "velocity_m_per_s": [0.8, 0], "fixtures": [{"shape": "circle", "radius_m": 0.2, "material": "felt"}]}]})";
+
+TEST_F(MaterialCommand, TexturesOfARenderedScrapeAreThoseOfItsScene) {
+    write("ridges.json", ridges);
+    ASSERT_EQ(call("render ridges.json --layout phone1 --seconds 3 --limiter off --out scrape.wav").exitCode,
+              0);
+    const double newtons = 10.0 * 10.0 * 3.14159265 * 0.2 * 0.2;
+    const auto outcome =
+        call("material --texture scrape.wav --speed 0.8 --mass 20 --load " + std::to_string(newtons));
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    std::istringstream lines{outcome.out};
+    std::string header, cell;
+    std::getline(lines, header);
+    EXPECT_EQ(header, "frequency_hz,decay_per_s,grain_m,roughness,grain_pattern");
+    for (const auto& [expected, share] : {std::pair{349.0, 0.02}, {107.0, 0.25}, {0.004, 0.01}, {0.5, 0.1}}) {
+        std::getline(lines, cell, ',');
+        EXPECT_NEAR(std::stod(cell) / expected, 1.0, share) << outcome.out;
+    }
+    std::getline(lines, cell);
+    EXPECT_EQ(cell, "regular");
+    EXPECT_NE(outcome.err.find(" grains a second, "), std::string::npos) << outcome.err;
+}
+
+TEST_F(MaterialCommand, ModesAreTheOvertonesOfABody) {
+    record("0.1,349,106.99,0.5,0,0\n0.1,610,150,0.25,0,0");
+    const auto outcome = call("material hit.wav --modes 4");
+    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    std::istringstream lines{outcome.out};
+    std::string head;
+    std::getline(lines, head);
+    EXPECT_EQ(head, "frequency_hz,decay_per_s,amplitude");
+    for (const auto& [hz, decay, amplitude] : {std::tuple{349.0, 106.99, 1.0}, {610.0, 150.0, 0.5}}) {
+        double found[3] = {};
+        char comma = 0;
+        lines >> found[0] >> comma >> found[1] >> comma >> found[2];
+        EXPECT_NEAR(found[0], hz, 0.5);
+        EXPECT_NEAR(found[1], decay, 0.02 * decay);
+        EXPECT_NEAR(found[2], amplitude, 0.02);
+    }
+    refuses("material hit.wav --modes 5", 2, "--modes", 2);
+}
+
+TEST_F(MaterialCommand, WhatIsNoScrapeIsOneLine) {
+    record("0.1,349,106.99,0,0,0");
+    refuses("material --texture hit.wav --speed 1", 1, "hit.wav: expected a scrape, found silence", 2);
+    record("0.1,349,106.99,0.5,0,0");
+    refuses("material --texture hit.wav --speed 1", 1,
+            "hit.wav: expected a scrape whose grains stand out or repeat, found none that do", 2);
+    refuses("material --texture hit.wav", 2, "--texture and --speed go together", 2);
+    refuses("material hit.wav --speed 1", 2, "--texture and --speed go together", 2);
+    refuses("material hit.wav --texture hit.wav --speed 1", 2,
+            "give either FILE.wav or --list or --texture FILE", 2);
+    for (const char* speed : {"0", "-1", "nan", "101", "fast"})
+        refuses(std::string{"material --texture hit.wav --speed="} + speed, 2, "--speed", 2);
+}
+
+TEST_F(MaterialCommand, BadCallsAreUsageErrors) {
+    for (const char* band : {"90", "90-", "1000-90", "-90-100", "a-b", "0-100", "90-90"})
+        refuses(std::string{"material a.wav --band="} + band, 2, "--band: expected LO-HI in Hz like 90-1000");
+    refuses("material a.wav --rule guess", 2, "--rule");
+    refuses("material", 2, "give either FILE.wav or --list");
+    refuses("material a.wav --list", 2, "give either FILE.wav or --list");
 }
 
 } // namespace

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Order, release and overflow of events that wait for their turn.
 #include "Contacts/EventMaker.h"
+#include "Contacts/FixtureTable.h"
+#include "Contacts/IndexMaps.h"
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <map>
 #include <random>
 
 namespace physvib {
@@ -101,6 +104,69 @@ TEST(EventSorter, WithdrawsEventsOfAFixtureAndOnDemandThoseItGave) {
     finished.clear();
     sorter.release(10, finished);
     EXPECT_EQ(finished, std::vector{event(3, 1)});
+}
+
+// The map against std::map, with keys that collide.
+
+TEST(IntegerMap, EqualsAStandardMapThroughRandomEdits) {
+    std::mt19937 random(1);
+    IntegerMap map(4);
+    std::map<std::uint64_t, std::int32_t> reference;
+    for (int i = 0; i < 200'000; ++i) {
+        const std::uint64_t key = (1 + random() % 200) << 40U;
+        if (random() % 2 == 0) {
+            map.set(key, i);
+            reference[key] = i;
+        } else {
+            map.erase(key);
+            reference.erase(key);
+        }
+        if (random() % 1000 == 0) {
+            map.clear();
+            reference.clear();
+        }
+        const std::uint64_t asked = (1 + random() % 200) << 40U;
+        const auto found = reference.find(asked);
+        ASSERT_EQ(map.find(asked), found == reference.end() ? IntegerMap::none : found->second);
+        ASSERT_EQ(map.size(), reference.size());
+    }
+}
+
+// A sketch of a set of names: no is certain, and yes is rare of what is not there.
+
+std::uint64_t address(int i) { return 0x7F0000001000U + 16U * static_cast<std::uint64_t>(i); }
+
+TEST(NameSketch, NeverDeniesWhatIsThere) {
+    NameSketch sketch;
+    for (int i = 0; i < 50'000; ++i) sketch.add(address(i));
+    for (int i = 100; i < 50'000; ++i) sketch.remove(address(i));
+    for (int i = 0; i < 100; ++i) EXPECT_TRUE(sketch.mayHave(address(i))) << i;
+}
+
+TEST(NameSketch, SeldomAffirmsWhatIsNot) {
+    NameSketch sketch;
+    for (int i = 0; i < 100; ++i) sketch.add(address(i));
+    int affirmed = 0;
+    for (int i = 100; i < 10'100; ++i) affirmed += sketch.mayHave(address(i)) ? 1 : 0;
+    EXPECT_LT(affirmed, 1000); // 100 of 2,048 places are taken: 1 in 20
+}
+
+TEST(NameSketch, OfCamerasFollowsTheTable) {
+    FixtureTable table;
+    HapticFixture camera{}, other{};
+    camera.isCamera = true;
+    const std::int32_t slot = table.know(address(1), {});
+    EXPECT_FALSE(table.mayBeCamera(address(1)));
+    for (int i = 0; i < 2; ++i) table.set(slot, camera, {});
+    EXPECT_TRUE(table.mayBeCamera(address(1)));
+    table.set(slot, other, {});
+    EXPECT_FALSE(table.mayBeCamera(address(1)));
+    table.set(slot, camera, {});
+    table.unset(slot);
+    EXPECT_FALSE(table.mayBeCamera(address(1)));
+    table.set(slot, camera, {});
+    table.release(slot);
+    EXPECT_FALSE(table.mayBeCamera(address(1)));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // The impulse of full scale, told and learned, and the time in which a world settles: hits of known impulses.
 #include "Contacts/ContactFeed.h"
 #include "Contacts/EventMaker.h"
+#include "Contacts/ImpactSettings.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -162,6 +163,20 @@ TEST(FullScale, RefusesWhatCannotBe) {
         EXPECT_EQ(faultOf(settings), "settling: expected 0 s or more");
     }
 }
+
+// Eq. 5.4 and 5.7 with numbers worked out by hand.
+
+TEST(ImpactModel, AmplitudeIsImpulseOverMassesTimesNormalisation) {
+    const ImpactModel model{0.125, 30.0, 1.0};
+    EXPECT_DOUBLE_EQ(model.amplitude(80.0, 10.0), 0.25);
+}
+
+TEST(ImpactModel, DriveGainMultiplies) {
+    const ImpactModel model{0.125, 30.0, 4.0};
+    EXPECT_DOUBLE_EQ(model.amplitude(80.0, 10.0), 1.0);
+}
+
+TEST(ImpactModel, FastestBodyCrossesTheFieldInASecond) { EXPECT_DOUBLE_EQ(defaultNormalisation(4.0), 0.125); }
 
 } // namespace
 } // namespace physvib

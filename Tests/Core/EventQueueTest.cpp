@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Queues: order, refusal and counting when full, nothing torn between two threads, places of panners.
 #include "Core/EventQueue.h"
+#include "Core/ClockLaw.h"
 #include "Core/CollisionEvent.h"
 #include "Core/ControlQueue.h"
+#include "Core/Limits.h"
+#include "Core/Storage.h"
 #include "Support/Rendering.h"
 #include <gtest/gtest.h>
+#include <random>
+#include <set>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace physvib {
 namespace {
-
-TEST(EventQueue, GivesItemsBackInOrder) {
-    EventQueue<int, 8> queue;
-    for (int i = 0; i < 5; ++i) EXPECT_TRUE(queue.push(i));
-    int item = -1;
-    for (int i = 0; i < 5; ++i) {
-        ASSERT_TRUE(queue.pop(item));
-        EXPECT_EQ(item, i);
-    }
-    EXPECT_FALSE(queue.pop(item));
-}
 
 TEST(EventQueue, FullQueueRefusesCountsAndKeepsWhatItHas) {
     EventQueue<int, 4> queue;
@@ -141,6 +136,129 @@ TEST(ControlQueue, AFullQueueKeepsNoPlace) {
     while (queue.pop(control)) {
     }
     for (int k = 0; k < 2; ++k) EXPECT_TRUE(queue.push(pannerControl({})));
+}
+
+// FrameClock: exact frames and leads at every rate.
+
+__extension__ using Int128 = __int128;
+
+TEST(FrameClock, OnsetOnAFrameHasNoLead) {
+    const FrameClock clock{44100};
+    EXPECT_EQ(clock.at(100'000'000).frame, 4410);
+    EXPECT_EQ(clock.at(100'000'000).leadFrames, 0.0);
+    EXPECT_EQ(clock.at(0).frame, 0);
+}
+
+TEST(FrameClock, FrameIsTheFirstOneNotBeforeTheOnset) {
+    std::mt19937 random{3};
+    for (const int rate : {5000, 11025, 44100, 48000, 96000, 192000}) {
+        const FrameClock clock{rate};
+        for (int i = 0; i < 2000; ++i) {
+            const std::int64_t ns = static_cast<std::int64_t>(random()) * 4096 + random() % 4096;
+            const FramePosition p = clock.at(ns);
+            const auto ahead = static_cast<double>(static_cast<Int128>(p.frame) * 1'000'000'000 -
+                                                   static_cast<Int128>(ns) * rate);
+            ASSERT_GE(ahead, 0.0);
+            ASSERT_LT(ahead, 1e9);
+            ASSERT_NEAR(p.leadFrames, ahead * 1e-9, 1e-15);
+        }
+    }
+}
+
+TEST(FrameClock, ReachesTheLastMomentWithoutOverflow) {
+    EXPECT_EQ(FrameClock{192000}.at(limits::maxTimeNs).frame, 19'200'000'000'000);
+}
+
+// TimeOrdered: time order, arrival order among equals, refusal when full.
+
+TEST(TimeOrdered, FullStoreRefusesAndLosesNothing) {
+    TimeOrdered<int, 2> store;
+    EXPECT_TRUE(store.push(5, 1));
+    EXPECT_TRUE(store.push(3, 2));
+    EXPECT_TRUE(store.full());
+    EXPECT_FALSE(store.push(1, 3));
+    EXPECT_EQ(store.next(), 2);
+    store.pop();
+    EXPECT_EQ(store.next(), 1);
+}
+
+// Most come in order, some late, some far ahead; taken out in between.
+TEST(TimeOrdered, IsTheSameAsASortedListWhateverComesAndGoes) {
+    TimeOrdered<int, 64, true> store;
+    EXPECT_TRUE(store.full()) << "it has no room before";
+    for (const int capacity : {64, 5}) {
+        ASSERT_TRUE(store.resize(capacity));
+        std::set<std::pair<std::int64_t, int>> expected; // time, then arrival
+        std::mt19937 random{11};
+        std::int64_t now = 0;
+        for (int i = 0; i < 20'000; ++i) {
+            const auto what = random() % 10;
+            const std::int64_t time = what == 0   ? now - static_cast<int>(random() % 50)
+                                      : what == 1 ? now + 40
+                                                  : now;
+            ASSERT_EQ(store.push(time, i), static_cast<int>(expected.size()) < capacity);
+            if (static_cast<int>(expected.size()) < capacity) expected.emplace(time, i);
+            now += random() % 3;
+            if (i % 1000 == 999) {
+                std::set<std::pair<std::int64_t, int>> moved;
+                for (const auto& [t, item] : expected) moved.emplace(t / 7, item);
+                expected = std::move(moved);
+                store.retime([](std::int64_t t, int) { return t / 7; });
+                now /= 7;
+            }
+            while (!expected.empty() && random() % 5 < 2) {
+                ASSERT_EQ(store.nextTime(), expected.begin()->first);
+                ASSERT_EQ(store.next(), expected.begin()->second) << i;
+                store.pop();
+                expected.erase(expected.begin());
+            }
+            ASSERT_EQ(store.size(), static_cast<int>(expected.size()));
+        }
+    }
+}
+
+// LatestValue: the newest value, whole, never going back.
+
+struct Wide {
+    std::array<std::uint64_t, 32> words{};
+};
+
+TEST(LatestValue, IsDefaultBeforeTheFirstWrite) {
+    LatestValue<int> value;
+    EXPECT_EQ(value.read(), 0);
+}
+
+TEST(LatestValue, SkipsToTheNewestAndKeepsIt) {
+    LatestValue<int> value;
+    for (int i = 1; i <= 5; ++i) value.write(i);
+    EXPECT_EQ(value.read(), 5);
+    EXPECT_EQ(value.read(), 5);
+    value.write(6);
+    EXPECT_EQ(value.read(), 6);
+}
+
+TEST(LatestValue, IsNeverTornAndNeverGoesBackBetweenTwoThreads) {
+    constexpr std::uint64_t count = 300'000;
+    LatestValue<Wide> value;
+    std::thread writer{[&] {
+        Wide wide;
+        for (std::uint64_t n = 1; n <= count; ++n) {
+            wide.words.fill(n);
+            value.write(wide);
+        }
+    }};
+    std::uint64_t last = 0;
+    bool whole = true, forward = true;
+    while (last < count && whole && forward) {
+        const Wide wide = value.read();
+        for (const auto word : wide.words) whole = whole && word == wide.words[0];
+        forward = wide.words[0] >= last;
+        last = wide.words[0];
+    }
+    writer.join();
+    EXPECT_TRUE(whole);
+    EXPECT_TRUE(forward);
+    EXPECT_EQ(value.read().words[7], count);
 }
 
 } // namespace

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Remapping keeps frequencies' order and changes nothing else; gain, weighting and cuts act in their order.
 #include "Core/EventShaping.h"
+#include "Core/CollisionEvent.h"
+#include "Core/Samples.h"
 #include <gtest/gtest.h>
+#include <limits>
+#include <random>
 
 namespace physvib {
 namespace {
@@ -125,6 +129,195 @@ TEST(EventShaper, ForgetsTheImpactsThatStillSound) {
     EXPECT_LT(shaper(hit).amplitude, first) << "only what the first one leaves free";
     shaper.forget();
     EXPECT_EQ(shaper(hit).amplitude, first);
+}
+
+// Where a tone is cut.
+
+TEST(ToneEnd, IsACrossingAQuarterPeriodAwayAtMost) {
+    std::mt19937 random{1};
+    for (int i = 0; i < 100'000; ++i) {
+        const double hz = std::uniform_real_distribution{5.0, 2000.0}(random);
+        const auto wanted = std::uniform_int_distribution<std::int64_t>{1'000'000, 3'600'000'000'000}(random);
+        const std::int64_t end = softEndNs(hz, wanted);
+        const double halfNs = 0.5e9 / hz;
+        ASSERT_GE(end, 1);
+        if (static_cast<double>(wanted) >= halfNs)
+            ASSERT_LE(std::abs(static_cast<double>(end - wanted)), 0.5 * halfNs + 1.0) << hz << ' ' << wanted;
+        else
+            ASSERT_NEAR(static_cast<double>(end), halfNs, 1.0) << hz << ' ' << wanted;
+        const double halves = static_cast<double>(end) / halfNs;
+        ASSERT_NEAR(halves, std::round(halves), 1.0 / halfNs + 1e-9 * halves) << hz << ' ' << wanted;
+    }
+}
+
+TEST(ToneEnd, StaysWhereItIsACrossing) {
+    for (const std::int64_t ms : {2, 20, 250, 1000})
+        EXPECT_EQ(softEndNs(250.0, ms * 1'000'000), ms * 1'000'000);
+    EXPECT_EQ(softEndNs(205.0, 250'000'000), 251'219'512) << "ABA-250: 103 half periods";
+    EXPECT_EQ(nearestCrossingNs(205.0, 1'000'000), 0);
+}
+
+// Which events can be played at all.
+
+CollisionEvent sound() {
+    CollisionEvent e;
+    e.frequencyHz = 205;
+    e.decayPerSecond = 30;
+    e.amplitude = 0.5;
+    return e;
+}
+
+TEST(CollisionEvent, NoDecayNeedsADuration) {
+    CollisionEvent e = sound();
+    e.decayPerSecond = 0;
+    EXPECT_FALSE(isPlayable(e));
+    e.durationNs = 100'000'000;
+    EXPECT_TRUE(isPlayable(e));
+}
+
+TEST(CollisionEvent, WhatIsSlowerThan5HzDecays) {
+    CollisionEvent e = sound();
+    e.durationNs = 10'000'000'000;
+    const auto isTaken = [&](double frequencyHz, double decayPerSecond, std::int64_t travelNs = 0) {
+        e.frequencyHz = frequencyHz;
+        e.decayPerSecond = decayPerSecond;
+        e.course.travelNs = travelNs;
+        return isPlayable(e);
+    };
+    EXPECT_TRUE(isTaken(5.0, 0.0));
+    EXPECT_FALSE(isTaken(4.999, 0.0));
+    EXPECT_FALSE(isTaken(0.5, 1e-9)) << "a decay that is none";
+    EXPECT_TRUE(isTaken(0.5, 1.0));
+    EXPECT_FALSE(isTaken(2.0, 0.0, 10'000'000'000)) << "wherever it goes";
+    e.sound = soundOfClip(3);
+    EXPECT_TRUE(isTaken(clipFrequencyHz, 0.0)) << "a clip";
+    EXPECT_FALSE(isTaken(clipFrequencyHz, 0.0, 10'000'000'000)) << "no clip moves";
+    e.sound = soundOfMaterial("wood");
+    EXPECT_TRUE(isTaken(80.0, 0.0, 10'000'000'000)) << "materials do";
+    e.sound = -1;
+    EXPECT_FALSE(isTaken(80.0, 0.0)) << "no sound has this number";
+}
+
+TEST(SoundNumber, AMaterialKeepsItsNumberInFilesOfAllVersions) {
+    EXPECT_EQ(soundOfMaterial("wood"), 923368111);
+    EXPECT_EQ(soundOfMaterial("steel"), 2095187368);
+    EXPECT_FALSE(isClip(soundOfMaterial("wood")));
+    EXPECT_FALSE(isClip(0));
+    for (int k = 0; k < mostClips; ++k) EXPECT_TRUE(isClip(soundOfClip(k))) << k;
+    EXPECT_FALSE(isClip(soundOfClip(mostClips)));
+}
+
+TEST(CollisionEvent, NothingThatIsNotANumberIsPlayable) {
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+          -std::numeric_limits<double>::infinity()})
+        for (double CollisionEvent::*field :
+             {&CollisionEvent::frequencyHz, &CollisionEvent::decayPerSecond, &CollisionEvent::amplitude,
+              &CollisionEvent::x, &CollisionEvent::y}) {
+            CollisionEvent e = sound();
+            e.*field = bad;
+            EXPECT_FALSE(isPlayable(e));
+        }
+}
+
+TEST(CollisionEvent, LimitsAreKept) {
+    const auto with = [](auto change) {
+        CollisionEvent e = sound();
+        change(e);
+        return isPlayable(e);
+    };
+    EXPECT_FALSE(with([](auto& e) { e.timeNs = -1; }));
+    EXPECT_FALSE(with([](auto& e) { e.timeNs = limits::maxTimeNs + 1; }));
+    EXPECT_FALSE(with([](auto& e) { e.frequencyHz = 0; }));
+    EXPECT_FALSE(with([](auto& e) { e.decayPerSecond = -1; }));
+    EXPECT_FALSE(with([](auto& e) { e.decayPerSecond = limits::maxDecayPerSecond * 1.01; }));
+    EXPECT_FALSE(with([](auto& e) { e.amplitude = -2 * limits::maxAmplitude; }));
+    EXPECT_FALSE(with([](auto& e) { e.durationNs = -1; }));
+}
+
+// The weight of a frequency against its closed form, and that nothing is raised above full scale.
+
+// The threshold of detection as a displacement, relative to 250 Hz, in dB: -12 dB per octave from 40 to 250
+// Hz, flat on both sides.
+double displacementThresholdDb(double hz) { return -40.0 * std::log10(std::clamp(hz, 40.0, 250.0) / 250.0); }
+
+// The same as an acceleration, of which half is made up for, by at most a factor of 2.
+double expectedDb(double hz) {
+    const double acceleration = displacementThresholdDb(hz) + 40.0 * std::log10(hz / 250.0);
+    const double most = 20.0 * std::log10(2.0);
+    return std::clamp(0.5 * acceleration, -most, most);
+}
+
+TEST(PerceivedLevel, IsHalfTheThresholdOfAnAccelerationWithinSixDecibels) {
+    for (double hz = 1.0; hz <= 20000.0; hz *= 1.01)
+        ASSERT_NEAR(20.0 * std::log10(PerceivedLevel::weight(hz)), expectedDb(hz), 1e-9) << hz;
+    EXPECT_NEAR(PerceivedLevel::weight(349), 1.396, 1e-12);
+    EXPECT_EQ(PerceivedLevel::weight(500), 2.0);
+    EXPECT_EQ(PerceivedLevel::weight(20), 0.5);
+}
+
+TEST(PerceivedLevel, RisesWithFrequencyAndIsOneWhereThresholdsAreAlike) {
+    double last = 0.0;
+    for (double hz = 1.0; hz <= 20000.0; hz *= 1.01) {
+        const double weight = PerceivedLevel::weight(hz);
+        ASSERT_GE(weight, last) << hz;
+        if (hz > 20.0 && hz < 40.0) {
+            ASSERT_GT(weight, last) << hz;
+        }
+        if (hz >= 40.0 && hz <= 250.0) {
+            ASSERT_EQ(weight, 1.0) << hz;
+        }
+        last = weight;
+    }
+}
+
+TEST(PerceivedLevel, RaisesNothingAboveFullScaleAndKeepsTheOrderOfHits) {
+    const PerceivedLevel level{true};
+    for (const double hz : {10.0, 30.0, 100.0, 349.0, 430.0, 2000.0}) {
+        double last = -1.0;
+        for (double amplitude = 0.0; amplitude <= 4.0; amplitude += 0.01) {
+            const double weighted = level(amplitude, hz);
+            ASSERT_LE(weighted, std::max(amplitude, 1.0)) << hz << " Hz, " << amplitude;
+            ASSERT_GE(weighted, last) << hz << " Hz, " << amplitude;
+            ASSERT_EQ(level(-amplitude, hz), -weighted);
+            last = weighted;
+        }
+    }
+    EXPECT_EQ(level(0.4, 1000.0), 0.8);
+    EXPECT_EQ(level(0.7, 1000.0), 1.0);
+    EXPECT_EQ(level(1.5, 1000.0), 1.5);
+    EXPECT_EQ(level(1.5, 10.0), 0.75);
+}
+
+const CollisionEvent e{.timeNs = 7,
+                       .frequencyHz = 430,
+                       .decayPerSecond = 50,
+                       .amplitude = 0.3,
+                       .x = 1,
+                       .y = 2,
+                       .source = {1, 2, 3, 4}};
+
+TEST(PerceivedLevel, OffChangesNoBit) {
+    for (const double amplitude :
+         {0.0, 1e-300, 0.1, 0.3, -0.7, 1.7, std::numeric_limits<double>::denorm_min()})
+        EXPECT_EQ(PerceivedLevel{}(amplitude, 430.0), amplitude);
+    EXPECT_EQ(EventShaping{}(e), e);
+}
+
+TEST(PerceivedLevel, WeighsTheFrequencyThatIsPlayedAfterTheGainAndNothingElse) {
+    EventShaping shaping{.perceived = {true}};
+    CollisionEvent felt = shaping(e);
+    EXPECT_EQ(felt.amplitude, 0.3 * (430.0 / 250.0));
+    felt.amplitude = e.amplitude;
+    EXPECT_EQ(felt, e);
+    shaping.gain = 2.0;
+    EXPECT_EQ(shaping(e).amplitude, 1.0) << "0.6 is raised to full scale and no further";
+    shaping.gain = 1.0;
+    shaping.remap.band = {180, 230};
+    EXPECT_EQ(shaping(e).amplitude, e.amplitude) << "in that band thresholds are alike";
+    shaping.remap.band = {};
+    shaping.method.fixesFrequency = true;
+    EXPECT_EQ(shaping(e).amplitude, e.amplitude) << "250 Hz is what all is compared to";
 }
 
 } // namespace

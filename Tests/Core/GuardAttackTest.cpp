@@ -2,7 +2,6 @@
 // A search for input that passes the guard finds none: in a render, at the device, while its period and rate
 // change, and on the board. Nightly: `physvib-guard-figures attack`, for hours.
 #include "Support/GuardAttack.h"
-#include "Support/GuardPaths.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

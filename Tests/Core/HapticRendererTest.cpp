@@ -281,8 +281,6 @@ TEST(HapticRenderer, ControlsActAtTheirTimeWhateverTheBlockSize) {
     RenderStatus status;
     const auto reference = renderSession(session, settings, 48000, 8192, status);
     for (const int block : {1, 64, 441})
-        EXPECT_EQ(renderSession(session, settings, 48000, block, status).size(), 4u);
-    for (const int block : {1, 64, 441})
         EXPECT_TRUE(renderSession(session, settings, 48000, block, status) == reference) << block;
 }
 

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 // LinkedLimiter at 20 dB of random overload: ceilings, ratios, slopes, release to 1, what never passes.
+#include "Core/Actuators/ActuatorStage.h"
+#include "Core/Actuators/GainRamp.h"
 #include "Core/Actuators/OutputGuard.h"
 #include "Support/ClosedForm.h"
 #include "Support/Sets.h"
+#include <array>
 #include <bit>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -180,12 +185,6 @@ TEST(LinkedLimiter, DisabledItOnlyDelaysByTheSameTime) {
     for (std::size_t n = limited.latency(); n < rate; ++n) ASSERT_EQ(out[0][n], in[0][n - limited.latency()]);
 }
 
-TEST(LinkedLimiter, BlockSizeDoesNotMatter) {
-    Limited a, b;
-    const Block in = noise(rate, 10, 11);
-    EXPECT_EQ(a(in, 1), b(in, 4096));
-}
-
 TEST(LinkedLimiter, SilenceThatIsToldIsSilenceThatIsSeen) {
     Limited told, seen;
     for (const double level : {10.0, 0.5, 3.0}) {
@@ -221,6 +220,126 @@ TEST(LinkedLimiter, IsTheSameToTheBitOnEachInstructionSetAndAtEachBlockSize) {
                 EXPECT_EQ(limited.limiter->nonFiniteSamples(), 2U);
             }
     }
+}
+
+// GainRamp: straight lines between gains, exact at both ends.
+
+TEST(GainRamp, AtOneItChangesNoBit) {
+    GainRamp ramp;
+    ramp.prepare(1000, 0.01, 1.0f);
+    std::vector<float> x{0.1f, -3e-20f, 7.0f}, before = x;
+    float* at = x.data();
+    ramp.apply(&at, 1, 3);
+    EXPECT_EQ(x, before);
+}
+
+TEST(GainRamp, MovesInAStraightLineAcrossBlocksAndThenRests) {
+    GainRamp ramp;
+    ramp.prepare(1000, 0.01, 0.0f); // a tenth per frame
+    ramp.moveTo(1.0f);
+    std::vector<float> x(20, 1.0f);
+    float* at = x.data();
+    ramp.apply(&at, 1, 7);
+    at += 7;
+    ramp.apply(&at, 1, 13);
+    for (std::size_t n = 0; n < 20; ++n)
+        EXPECT_NEAR(x[n], std::min(1.0f, 0.1f * static_cast<float>(n + 1)), 1e-6);
+    EXPECT_TRUE(ramp.isResting());
+    EXPECT_EQ(x.back(), 1.0f);
+}
+
+TEST(GainRamp, InAHurryItIsThereInTheFramesGivenAndExactly) {
+    for (int frames = 1; frames <= 9; ++frames) {
+        GainRamp ramp;
+        ramp.prepare(1000, 0.01, 1.0f);
+        ramp.moveTo(0.0f, frames);
+        std::vector<float> x(9, 1.0f);
+        float* at = x.data();
+        ramp.apply(&at, 1, frames);
+        EXPECT_EQ(x[static_cast<std::size_t>(frames) - 1], 0.0f) << frames;
+        EXPECT_TRUE(ramp.isResting());
+    }
+}
+
+TEST(GainRamp, SilenceIsExact) {
+    GainRamp ramp;
+    ramp.prepare(1000, 0.01, 1.0f);
+    ramp.moveTo(0.0f);
+    std::vector<float> x(30, 1.0f);
+    float* at = x.data();
+    ramp.apply(&at, 1, 30);
+    EXPECT_EQ(x[9], 0.0f);
+    EXPECT_EQ(x[29], 0.0f);
+}
+
+TEST(GainRamp, MovesOnThroughSilence) {
+    GainRamp passed, applied;
+    std::array<float, 100> zeros{}, a{}, b{};
+    a.fill(1.0f);
+    b.fill(1.0f);
+    float *silence = zeros.data(), *atA = a.data(), *atB = b.data();
+    for (auto* ramp : {&passed, &applied}) {
+        ramp->prepare(48000, 0.01, 1.0f);
+        ramp->moveTo(-0.5f);
+    }
+    passed.pass(100);
+    applied.apply(&silence, 1, 100);
+    passed.apply(&atA, 1, 100);
+    applied.apply(&atB, 1, 100);
+    EXPECT_EQ(a, b);
+    EXPECT_LT(a[99], a[0]);
+}
+
+// A channel's delay: exact when it rests, without a step when it changes, silent when it is empty.
+
+std::vector<float> sine(int frames) {
+    std::vector<float> x(static_cast<std::size_t>(frames));
+    for (std::size_t n = 0; n < x.size(); ++n)
+        x[n] = static_cast<float>(std::sin(0.02 * static_cast<double>(n)));
+    return x;
+}
+
+TEST(ChannelDelay, DelaysByWholeFramesAtAnyBlockSize) {
+    const auto in = sine(3000);
+    for (const int block : {1, 7, 64, 3000}) {
+        ChannelDelay<500> delay;
+        delay.prepare(100, 123);
+        auto out = in;
+        for (int done = 0; done < 3000; done += block)
+            delay.process(out.data() + done, std::min(block, 3000 - done), false);
+        for (std::size_t n = 0; n < out.size(); ++n) ASSERT_EQ(out[n], n < 123 ? 0.0f : in[n - 123]) << n;
+    }
+}
+
+TEST(ChannelDelay, ChangesWithoutAStep) {
+    auto io = sine(4000);
+    ChannelDelay<500> delay;
+    delay.prepare(200, 0);
+    EXPECT_TRUE(delay.isOut());
+    delay.process(io.data(), 1000, false);
+    delay.moveTo(400);
+    delay.process(io.data() + 1000, 1500, false);
+    delay.moveTo(0);
+    delay.process(io.data() + 2500, 1500, false);
+    EXPECT_TRUE(delay.isOut());
+    for (std::size_t n = 1; n < io.size(); ++n) ASSERT_LT(std::abs(io[n] - io[n - 1]), 0.04f) << n;
+}
+
+TEST(ChannelDelay, TellsWhenNothingIsOnItsWay) {
+    std::vector<float> io(100, 0.0f);
+    ChannelDelay<500> delay;
+    delay.prepare(10, 250);
+    EXPECT_TRUE(delay.process(io.data(), 100, true));
+    io[0] = 1.0f;
+    EXPECT_FALSE(delay.process(io.data(), 100, false));
+    int heard = 0;
+    for (int block = 0; block < 10; ++block) {
+        std::fill(io.begin(), io.end(), 0.0f);
+        const bool isSilent = delay.process(io.data(), 100, true);
+        for (const float x : io) heard += x != 0.0f ? 1 : 0;
+        EXPECT_EQ(isSilent, block >= 5) << block;
+    }
+    EXPECT_EQ(heard, 1);
 }
 
 } // namespace

@@ -3,6 +3,8 @@
 #include "Live/Documents/SessionFile.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ReadFile.h"
+#include "Io/Json/JsonField.h"
+#include "Live/Documents/DocumentJson.h"
 #include "Support/FileTesting.h"
 #include "TestPlaces.h"
 #include <gtest/gtest.h>
@@ -153,6 +155,90 @@ TEST_F(SessionFileInAFolder, AFileElsewhereIsReadByItsHashOnly) {
     EXPECT_EQ(faultOfRecording("../a.wav", ""), (folder / "").string() + why + "\"../a.wav\"");
     EXPECT_EQ(faultOfRecording("b/../../a.wav", ""), (folder / "").string() + why + "\"b/../../a.wav\"");
     EXPECT_EQ(faultOfRecording("/etc/passwd", ""), (folder / "").string() + why + "\"/etc/passwd\"");
+}
+
+// The law of parts of the body in session files: what is rendered again is panned as it was live.
+
+/// A row of three on the index, tilted, beside the tips of a hand.
+EnchanterLayout gloveWithRow() {
+    EnchanterLayout layout;
+    EXPECT_TRUE(layoutPreset("glove5", layout));
+    for (int j = 0; j < 2; ++j)
+        layout.places[static_cast<std::size_t>(layout.count++)] = {
+            0.06 - 0.01 * (j + 1), 0.085 - 0.03 * (j + 1), -0.01 - 0.005 * (j + 1), partNamed("index")};
+    return layout;
+}
+
+OrderedJson written(const PhantomPanner& panner) {
+    LayoutDescription described;
+    return writeKind(DescribedPanner<const LayoutDescription>{64, described}, panner);
+}
+
+PhantomPanner readBack(const OrderedJson& text) {
+    LayoutDescription described;
+    const Json json = Json::parse(text.dump());
+    return readKind(JsonField{json, "panning"}, DescribedPanner<LayoutDescription>{64, described});
+}
+
+PhantomPanner::Gains indexGains(const PhantomPanner& panner) {
+    CollisionEvent event;
+    event.x = 0.056, event.y = 0.07, event.z = -0.012;
+    event.source.part = partNamed("index");
+    PhantomPanner::Gains gains{};
+    panner.gainsAt(event, gains);
+    return gains;
+}
+
+TEST(PartLaw, ComesBackWithTheSession) {
+    const PhantomPanner live{gloveWithRow(), PanningLaw::automatic, 1.0, 0.14, 0.095};
+    ASSERT_EQ(live.law(), PanningLaw::distance);
+    EXPECT_EQ(written(live)["law"], "distance");
+    EXPECT_EQ(written(live)["part_law"], "auto");
+    const PhantomPanner back = readBack(written(live));
+    EXPECT_EQ(back.requestedLaw(), PanningLaw::automatic);
+    EXPECT_EQ(indexGains(back), indexGains(live));
+    EXPECT_EQ(written(back).dump(), written(live).dump());
+}
+
+TEST(PartLaw, IsTheLawOfAllWhereAFileNamesNone) {
+    const PhantomPanner live{gloveWithRow(), PanningLaw::automatic, 1.0, 0.14, 0.095};
+    OrderedJson before = written(live);
+    before.erase("part_law");
+    const PhantomPanner named{gloveWithRow(), PanningLaw::distance, 1.0, 0.14, 0.095};
+    EXPECT_EQ(indexGains(readBack(before)), indexGains(named));
+    EXPECT_NE(indexGains(readBack(before)), indexGains(live));
+    EXPECT_FALSE(written(named).contains("part_law"));
+    EnchanterLayout phone;
+    ASSERT_TRUE(layoutPreset("phone4", phone));
+    EXPECT_FALSE(written({phone, PanningLaw::automatic, 1.0, 1.0, 0.5}).contains("part_law"))
+        << "a layout without parts is written as before";
+}
+
+// The law of grains in session files.
+
+TEST(GrainLaw, ComesBackAndIsTheLawOfAllElseWhereAFileNamesNone) {
+    EnchanterLayout layout;
+    ASSERT_TRUE(layoutPreset("phone4", layout));
+    PhantomPanner panner{layout, PanningLaw::linear, 1.0, 1.0, 0.5};
+    LayoutDescription described;
+    const DescribedPanner<const LayoutDescription> kind{4, described};
+    EXPECT_FALSE(writeKind(kind, panner).contains("grain_law")) << "as before";
+    const auto back = [&](const OrderedJson& written) {
+        LayoutDescription read;
+        const Json json = Json::parse(written.dump());
+        return readKind(JsonField{json, "panning"}, DescribedPanner<LayoutDescription>{4, read}).grains();
+    };
+    EXPECT_EQ(back(writeKind(kind, panner)), Spread::layout);
+    panner.setGrains(grainSpread);
+    EXPECT_EQ(writeKind(kind, panner)["grain_law"], "energy");
+    EXPECT_EQ(back(writeKind(kind, panner)), grainSpread);
+    described = describeLayout("own", layout);
+    described.enchanters[1].fullScaleG = 2.5;
+    const Json json = Json::parse(writeKind(kind, panner).dump());
+    LayoutDescription read;
+    readKind(JsonField{json, "panning"}, DescribedPanner<LayoutDescription>{4, read});
+    EXPECT_EQ(read.name, "own");
+    EXPECT_EQ(read.enchanters, described.enchanters) << "full scales too";
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 // The way through an output that a program opens anew again and again, for GuardAttack.
 #pragma once
 #include "Live/Devices/DeviceGuard.h"
-#include "Support/GuardPaths.h"
+#include "Support/GuardAttack.h"
 
 namespace physvib::test {
 

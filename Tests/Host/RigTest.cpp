@@ -2,11 +2,19 @@
 // One rig from its beginning to its end: what it plays, keeps and says.
 #include "Live/Rig/Rig.h"
 #include "Live/Devices/AudioDevice.h"
+#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/SimulationDriver.h"
+#include "Live/Devices/SinkTable.h"
 #include "Live/Documents/SessionFile.h"
 #include "MessageLoop.h"
+#include "Scene/World/RunSettings.h"
 #include "Session/FakeHost.h"
 #include "Support/FileTesting.h"
+#include <atomic>
+#include <chrono>
 #include <gtest/gtest.h>
+#include <optional>
+#include <thread>
 
 namespace physvib {
 namespace {
@@ -85,6 +93,122 @@ TEST_F(RigTest, WaitsForASinkOrNamesItLater) {
     rig.finish(false);
     rig.summary(trouble);
     EXPECT_NE(trouble, "") << "success is not told where nothing was felt";
+}
+
+// How what is played beside a device is named.
+
+std::string words(const OutputNames& names) {
+    std::string all = names.device;
+    for (const SinkName& sink : names.sinks) all += " | " + sink.kind + " " + sink.where;
+    return all;
+}
+
+TEST(SinkTable, ADeviceAndAnyNumberOfSinksAreNamedInOneLine) {
+    const struct {
+        const char *text, *read;
+    } cases[]{
+        {"", ""},
+        {"JACK:system", "JACK:system"},
+        {"BOARD:auto", "None:no device | BOARD auto"},
+        {"JACK:system+BOARD:/dev/ttyACM0", "JACK:system | BOARD /dev/ttyACM0"},
+        {"ALSA:a+b+BOARD:auto", "ALSA:a+b | BOARD auto"},
+        {"JACK:system+BOARD:/dev/a+b+BOARD:auto", "JACK:system | BOARD /dev/a+b | BOARD auto"},
+        {"BOARD:one+BOARD:two", "None:no device | BOARD one | BOARD two"},
+        {"JACK:system+BOARD:", "JACK:system"},
+        {"JACK:system+PLANK:auto", "JACK:system+PLANK:auto"},
+    };
+    for (const auto& one : cases) EXPECT_EQ(words(OutputNames{one.text}), one.read) << one.text;
+}
+
+TEST(SinkTable, MoreEnchantersThanASinkHasAreRefused) {
+    const OutputNames names{"BOARD:auto"};
+    EXPECT_EQ(channelFault(names.sinks, 4), "");
+    EXPECT_EQ(channelFault(names.sinks, 5), "board: expected at most four actuators");
+    EXPECT_EQ(channelFault({}, 64), "");
+}
+
+TEST(SinkTable, MoreSinksThanFindRoomAreRefusedAndNoneIsOpened) {
+    const std::vector<SinkName> nine(mostNamedSinks + 1, {"BOARD", "nowhere"});
+    Sinks opened;
+    EXPECT_EQ(openSinks(
+                  nine, {}, [] { return false; }, opened),
+              "expected at most 8 outputs beside the device, found 9");
+    EXPECT_TRUE(opened.empty());
+}
+
+// Drivers take over from each other, and from blocks that step the world, at any moment.
+
+using namespace test;
+
+/// Steps the session for that time: as a message thread, a thread of its own, or not (the render call).
+void drive(int kind, Session& session, std::chrono::milliseconds time) {
+    std::optional<ThreadDriver> driver;
+    if (kind == 1) driver.emplace(session, 100);
+    for (const auto end = std::chrono::steady_clock::now() + time; std::chrono::steady_clock::now() < end;
+         std::this_thread::sleep_for(std::chrono::milliseconds{kind == 0 ? 10 : 1}))
+        if (kind == 0) session.advance();
+}
+
+TEST(SimulationDriver, AnyTakesOverFromAnyOther) {
+    constexpr int frames = 480;
+    const auto setup = shakeTheBoxSetup(0.1);
+    Session session{setup};
+    session.prepare(hostRate, frames);
+    session.advance();
+    std::atomic<bool> stop{false}, offline{false};
+    std::vector<CollisionEvent> played;
+    std::thread device{[&] { // blocks in real time
+        Block block;
+        for (auto next = std::chrono::steady_clock::now(); !stop; next += std::chrono::milliseconds{10}) {
+            std::this_thread::sleep_until(next);
+            session.render(block.at.data(), frames, offline ? RenderMode::offline : RenderMode::realtime);
+            for (const auto& e : drain(session)) played.push_back(e);
+        }
+    }};
+    Random random{1};
+    for (int i = 0; i < 40; ++i) {
+        const int kind = random.below(3);
+        offline = kind == 2;
+        drive(kind, session, std::chrono::milliseconds{20 + random.below(100)});
+    }
+    stop = true;
+    device.join();
+    SessionLog log;
+    session.readLog(log);
+    ASSERT_GT(played.size(), 40u);
+    EXPECT_TRUE(played == runTakes(log.takes, setup.run(), played.back().timeNs + 1).events);
+    EXPECT_EQ(session.status().render.late, 0u);
+}
+
+TEST(SimulationDriver, AWorldThatStandsStillIsLookedAtAsOftenAsItsStepsWouldBeDue) {
+    constexpr int frames = 64;
+    Session session{shakeTheBoxSetup(0.1)};
+    session.prepare(hostRate, frames);
+    Block block;
+    const auto blocksUntilDue = [&] {
+        session.render(block.at.data(), frames, RenderMode::realtime);
+        session.advance();
+        return (session.world().nextStepNs() - session.pulse().lastNs()) * hostRate / 1'000'000'000.0 /
+               frames;
+    };
+    session.world().setSlowness(0);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(blocksUntilDue(), 7.0, 0.01); // of 1.3 ms: no later than 10 ms
+}
+
+TEST(SimulationDriver, NoStepIsMadeOnceAllShallEnd) {
+    Session session{shakeTheBoxSetup(0.1)};
+    session.prepare(hostRate, 480);
+    session.advance();
+    const std::atomic<bool> ends{true};
+    {
+        const ThreadDriver driver{session, 100, &ends};
+        Block block;
+        for (int i = 0; i < 10; ++i) {
+            session.render(block.at.data(), 480, RenderMode::realtime);
+            std::this_thread::sleep_for(std::chrono::milliseconds{20});
+        }
+    }
+    EXPECT_GT(session.advance(), 0) << "what was due was left";
 }
 
 } // namespace

@@ -3,7 +3,6 @@
 // sanitizers; prints the one that broke a promise, or before which the program ended (the last line of a log
 // of all would be it: run again with its number as COUNT).
 #include "Osc/DoorGrammar.h"
-#include "Osc/DoorTrial.h"
 #include <chrono>
 #include <cstdio>
 

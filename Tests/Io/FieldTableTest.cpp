@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A table of fields reads and writes a struct: what it refuses, in which words, and what it leaves out.
 #include "Io/Json/FieldJson.h"
+#include "Io/Text/CsvTable.h"
+#include "Io/Text/DecimalSeconds.h"
+#include "Support/FileTesting.h"
 #include <array>
 #include <gtest/gtest.h>
 
@@ -89,6 +92,158 @@ TEST(FieldTable, DefaultsOfOptionalFieldsAreNotWritten) {
     EXPECT_EQ(writeTable(Thing{0.0, Colour::green, {0}, {{1}}, 1.0, 1.0}).dump(),
               R"({"thing":3,"level_db":0.0,"colour":"green","part":{"number":1},"parts":[{"number":2}],)"
               R"("sizes":[1.0,1.0]})");
+}
+
+// Seconds become nanoseconds exactly, whatever way they are written.
+
+std::string written(std::int64_t nanoseconds) {
+    std::string text;
+    appendSeconds(text, nanoseconds);
+    return text;
+}
+
+TEST(DecimalSeconds, AreWrittenWithNineDecimals) {
+    EXPECT_EQ(written(0), "0.000000000");
+    EXPECT_EQ(written(1), "0.000000001");
+    EXPECT_EQ(written(250'000'000), "0.250000000");
+    EXPECT_EQ(written(12'345'678'901), "12.345678901");
+    EXPECT_EQ(written(-1'500'000'000), "-1.500000000");
+    EXPECT_EQ(written(std::numeric_limits<std::int64_t>::min()), "-9223372036.854775808");
+}
+
+TEST(DecimalSeconds, ReadBackToTheNanosecond) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 100'000; ++i) {
+        const std::uint64_t high = random();
+        const auto range = static_cast<std::uint64_t>(limits::maxTimeNs) + 1;
+        const auto nanoseconds = static_cast<std::int64_t>(((high << 32) | random()) % range);
+        ASSERT_EQ(parseSeconds(written(nanoseconds)), nanoseconds);
+    }
+}
+
+TEST(DecimalSeconds, NeverPassThroughADouble) {
+    EXPECT_EQ(parseSeconds("999999.999999999"), 999'999'999'999'999);
+    EXPECT_EQ(parseSeconds("123456.789012345"), 123'456'789'012'345);
+    EXPECT_EQ(parseSeconds("0.30000000000000004"), 300'000'000);
+}
+
+TEST(DecimalSeconds, MayBeShortOrHaveAnExponent) {
+    EXPECT_EQ(parseSeconds("7"), 7'000'000'000);
+    EXPECT_EQ(parseSeconds("7."), 7'000'000'000);
+    EXPECT_EQ(parseSeconds(".5"), 500'000'000);
+    EXPECT_EQ(parseSeconds("1e-3"), 1'000'000);
+    EXPECT_EQ(parseSeconds("1.5E-06"), 1'500);
+    EXPECT_EQ(parseSeconds("2.5e+2"), 250'000'000'000);
+    EXPECT_EQ(parseSeconds("000000000000000000000000001"), 1'000'000'000);
+    EXPECT_EQ(parseSeconds("0e999"), 0);
+    EXPECT_EQ(parseSeconds("1e-999"), 0);
+}
+
+TEST(DecimalSeconds, RoundHalfToEvenBeyondTheNinthDecimal) {
+    EXPECT_EQ(parseSeconds("0.0000000005"), 0);
+    EXPECT_EQ(parseSeconds("0.0000000015"), 2);
+    EXPECT_EQ(parseSeconds("0.0000000025"), 2);
+    EXPECT_EQ(parseSeconds("0.00000000050000000000000000000000001"), 1);
+    EXPECT_EQ(parseSeconds("0.00000000149999999999999999999999999"), 1);
+    EXPECT_EQ(parseSeconds("0.9999999996"), 1'000'000'000);
+    EXPECT_EQ(parseSeconds("9e-10"), 1);
+    EXPECT_EQ(parseSeconds("9e-11"), 0);
+}
+
+TEST(DecimalSeconds, EndAtTheLimit) {
+    EXPECT_EQ(parseSeconds("100000000"), limits::maxTimeNs);
+    EXPECT_EQ(parseSeconds("1e8"), limits::maxTimeNs);
+    EXPECT_EQ(parseSeconds("100000000.0000000005"), limits::maxTimeNs);
+    for (const char* text : {"100000000.000000001", "999999999.999999999", "1e9", "1e2147483647",
+                             "99999999999999999999999999", "9e18"})
+        EXPECT_EQ(parseSeconds(text), std::nullopt) << text;
+}
+
+TEST(DecimalSeconds, RefuseWhatIsNoTime) {
+    for (const char* text :
+         {"",      ".",     "-1",    "-0",   "+1",  "1,5", "1.2.3", "1e", "e5", ".e5",
+          "1e+-3", "1e--3", "1e1.5", "0x10", "nan", "inf", "1 ",    " 1", "1s", "1e99999999999",
+          "--1",   "1e3e3"})
+        EXPECT_EQ(parseSeconds(text), std::nullopt) << text;
+}
+
+// Tables of words: quotes, comments, and faults named by line.
+
+using namespace std::string_view_literals;
+
+TEST(CsvTable, CellsWithCommasStandInQuotes) {
+    const auto table = readCsvTable("\xEF\xBB\xBF# physvib 1 seed=2\r\n\r\nstimulus,response\r\n\"1,2\" , "
+                                    "\"say \"\"hi\"\"\"\r\n a ,\r\n\r\n",
+                                    "t.csv");
+    ASSERT_TRUE(table) << table.error;
+    EXPECT_EQ(table.value.comments, std::vector<std::string>{"physvib 1 seed=2"});
+    EXPECT_EQ(table.value.columns, (std::vector<std::string>{"stimulus", "response"}));
+    ASSERT_EQ(table.value.rows.size(), 2u);
+    EXPECT_EQ(table.value.rows[0].cells, (std::vector<std::string>{"1,2", "say \"hi\""}));
+    EXPECT_EQ(table.value.rows[1].cells, (std::vector<std::string>{"a", ""}));
+    EXPECT_EQ(table.value.rows[1].line, 5u);
+    EXPECT_TRUE(table.value.column("response") == 1u && !table.value.column("x"));
+}
+
+TEST(CsvTable, FaultsAreNamedByLine) {
+    const auto fault = [](std::string_view text) { return readCsvTable(text, "t.csv").error; };
+    EXPECT_EQ(fault(""), "t.csv:1: expected a header line, found the end of the file");
+    EXPECT_EQ(fault("a,a\n1,2\n"), "t.csv:1: column a appears twice");
+    EXPECT_EQ(fault("a,,b\n1,2,3\n"), "t.csv:1: expected a name for every column");
+    EXPECT_EQ(fault("a,\n1,2\n"), "t.csv:2: expected nothing in the last column, which has no name");
+    for (const auto wide : {"\xFF\xFE,"sv, "a\0,\0b\0\n\0"sv, "\0a\0,\0b\0\n"sv})
+        EXPECT_EQ(fault(wide), "t.csv:1: expected UTF-8, found UTF-16: save it as CSV UTF-8");
+    EXPECT_EQ(fault("a,b\n1,2,3\n"),
+              "t.csv:2: expected 2 cells, found 3 (a cell with a comma stands in quotes)");
+    EXPECT_EQ(fault("a,b\n1,2\n\n1,2\n"),
+              "t.csv:3: expected 2 cells, found 0 (a cell with a comma stands in quotes)");
+    for (const char* quotes : {"a\n\"1\n", "a\n\"1\"2\n", "a\n1\"2\n"})
+        EXPECT_EQ(fault(quotes), "t.csv:2: expected quotes around whole cells, and in pairs");
+    EXPECT_EQ(fault("a\n"), "t.csv:1: expected rows after the header, found none");
+}
+
+TEST(CsvTable, SpreadsheetsAndExperimentsSeparateCellsOtherwise) {
+    for (const char* text : {"a,b,\n1.5,x,\n", "a;b\n1,5;x\n", "sep=;\na;b\n1,5;x\n", "sep=,\na,b\n1.5,x\n",
+                             "a\tb\n1.5\tx\n", "a\tb\n1,5\tx\n", "\"a\";\"b\"\n1,5;\"x\"\n"}) {
+        const auto table = readCsvTable(text, "t.csv");
+        ASSERT_TRUE(table) << text << table.error;
+        EXPECT_EQ(table.value.columns, (std::vector<std::string>{"a", "b"})) << text;
+        EXPECT_EQ(table.value.rows.front().cells, (std::vector<std::string>{"1.5", "x"})) << text;
+    }
+    EXPECT_EQ(readCsvTable("a\tb\tc\n1\t\t\n", "t.csv").value.rows.front().cells[0], "1") << "empty cells";
+}
+
+TEST(CsvTable, WrittenCellsAreReadBack) {
+    for (const std::string words : {"plain", "1,2", "say \"hi\"", " blanks ", "#no comment", "", "=1+1",
+                                    "-1+1", "@SUM(a)", "+a", "'=1", "''", "'a", "-5", "-"}) {
+        std::string line;
+        appendCell(line, words);
+        const auto table = readCsvTable("a,b\n" + line + ",1\n", "t.csv");
+        ASSERT_TRUE(table) << table.error << line;
+        EXPECT_EQ(table.value.rows[0].cells[0], words);
+    }
+}
+
+TEST(CsvTable, FormulasStandBehindAnApostropheNumbersDoNot) {
+    const auto cell = [](std::string_view words) {
+        std::string line;
+        appendCell(line, words);
+        return line;
+    };
+    EXPECT_EQ(cell("=HYPERLINK(\"a\")"), "\"'=HYPERLINK(\"\"a\"\")\"");
+    EXPECT_EQ(cell("@a"), "'@a");
+    EXPECT_EQ(cell("-a"), "'-a");
+    EXPECT_EQ(cell("-5.5"), "-5.5");
+    EXPECT_EQ(cell("a=b"), "a=b");
+}
+
+TEST(CsvTable, IsBoundedInCellsHoweverFewBytesTheyHave) {
+    std::string text, row(255, ',');
+    for (int c = 0; c < 256; ++c) text += (c == 0 ? "c" : ",c") + std::to_string(c);
+    row += '\n';
+    text += '\n';
+    for (int r = 0; r < 12'000; ++r) text += row;
+    EXPECT_EQ(readCsvTable(text, "t.csv").error, "t.csv:11720: expected at most 3000000 cells in all");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A ball without gravity in a box that is turned somehow in space, through Rapier 3D's attachment, as Tests/Engines/TiltedBox.h has it for others:
+// A ball without gravity in a box that is turned somehow in space, through Rapier 3D's attachment, as Tests/Engines/TurnedBrick.h has it for others:
 // what is felt against the engine's own motion, and the first hit of each axis against the closed form: space.mjs FOLDER. Then a ball that rolls and
 // one that slides down an incline: what grains they pass.
 import assert from 'node:assert/strict';

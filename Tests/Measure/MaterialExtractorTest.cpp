@@ -1,14 +1,73 @@
 // SPDX-License-Identifier: MIT
 // MaterialExtractor: what was put into synthetic hits comes out again; what is no hit is told.
 #include "Measure/MaterialExtractor.h"
-#include "Measure/HitBound.h"
+#include "Measure/HitFit.h"
 #include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
+#include <vector>
+
+// What no unbiased estimator gets below: the Cramer-Rao bound of hits of known make in white noise (Kay 1993,
+// ch. 3).
+namespace physvib::test {
+
+struct HitTone {
+    double frequencyHz, decayPerSecond, amplitude = 1.0;
+};
+
+/// Standard deviations of the first tone's two numbers, as shares of them.
+struct HitBound {
+    double frequency, decay;
+};
+
+/// The inverse's diagonal of a positive matrix (n x n, by rows), by elimination.
+inline std::vector<double> inverseDiagonal(std::vector<double> m, std::size_t n) {
+    std::vector<double> right(n * n);
+    for (std::size_t i = 0; i < n; ++i) right[i * n + i] = 1.0;
+    for (std::size_t p = 0; p < n; ++p) {
+        const double pivot = m[p * n + p];
+        for (std::size_t c = 0; c < n; ++c) m[p * n + c] /= pivot, right[p * n + c] /= pivot;
+        for (std::size_t r = 0; r < n; ++r) {
+            const double factor = m[r * n + p];
+            for (std::size_t c = 0; c < n && r != p; ++c)
+                m[r * n + c] -= factor * m[p * n + c], right[r * n + c] -= factor * right[p * n + c];
+        }
+    }
+    std::vector<double> diagonal;
+    for (std::size_t i = 0; i < n; ++i) diagonal.push_back(right[i * n + i]);
+    return diagonal;
+}
+
+/// Tones of Eq. 5.1 that begin together at a moment that nobody tells, seen for `seconds` after it; noise of
+/// standard deviation `noise` per sample. Derivatives are taken in shares of each number, so that the matrix
+/// keeps its digits.
+inline HitBound boundOf(const std::vector<HitTone>& tones, double noise, double rateHz, double seconds) {
+    const std::size_t n = 1 + 3 * tones.size();
+    std::vector<double> information(n * n), row(n);
+    for (double t = 0.5 / rateHz; t < seconds; t += 1.0 / rateHz) {
+        row[0] = 0.0;
+        for (std::size_t k = 0; k < tones.size(); ++k) {
+            const auto& [hz, tau, amplitude] = tones[k];
+            const double omega = 2.0 * std::numbers::pi * hz, e = amplitude * std::exp(-tau * t),
+                         c = e * std::cos(omega * t), s = e * std::sin(omega * t);
+            row[0] += (tau * s - omega * c) / tones.front().decayPerSecond;
+            row[1 + 3 * k] = omega * t * c;
+            row[2 + 3 * k] = -tau * t * s;
+            row[3 + 3 * k] = s;
+        }
+        for (std::size_t a = 0; a < n; ++a)
+            for (std::size_t b = 0; b < n; ++b) information[a * n + b] += row[a] * row[b];
+    }
+    const std::vector<double> variance = inverseDiagonal(std::move(information), n);
+    return {noise * std::sqrt(variance[1]), noise * std::sqrt(variance[2])};
+}
+
+} // namespace physvib::test
 
 namespace physvib {
 namespace {
@@ -264,6 +323,52 @@ TEST(MaterialExtractor, RoundedPeaksAreNotClipped) {
     const auto found = extractMaterial(samples, rate);
     ASSERT_TRUE(found) << found.error;
     EXPECT_NEAR(found.value.frequencyHz, 40, 0.02);
+}
+
+// The error that a fit states of itself, for noise of three colours and equal power: never below what white
+// noise would make.
+
+constexpr double slowRate = 8000.0, noisePower = 0.02; // standard deviation per sample
+
+/// Noise of that power; `colour` -1: blue, differences; 0: white; 1: red, of 300 Hz and below.
+std::vector<double> noiseOf(int colour, std::size_t count, std::uint64_t seed) {
+    SeededRandom random{seed};
+    std::vector<double> noise(count);
+    double last = 0.0, power = 0.0;
+    for (double& x : noise) {
+        const double now = random.normal();
+        x = colour == 0 ? now : colour < 0 ? now - last : 0.9 * last + now;
+        last = colour > 0 ? x : now;
+        power += x * x;
+    }
+    for (double& x : noise) x *= noisePower / std::sqrt(power / static_cast<double>(count));
+    return noise;
+}
+
+TEST(StatedErrors, AreNeverBelowThoseOfWhiteNoise) {
+    for (const double frequencyHz : {150.0})
+        for (const double decay : {15.0, 40.0}) {
+            const auto bound = test::boundOf({{frequencyHz, decay}}, noisePower, slowRate, 0.5);
+            for (const int colour : {-1, 0, 1})
+                for (std::uint64_t seed = 1; seed <= 1; ++seed) {
+                    std::vector<double> samples = noiseOf(colour, 4000, seed);
+                    for (std::size_t i = 0; i < samples.size(); ++i) {
+                        const double t = static_cast<double>(i) / slowRate;
+                        samples[i] +=
+                            std::exp(-decay * t) * std::sin(2.0 * std::numbers::pi * frequencyHz * t);
+                    }
+                    const HitFit fit{std::move(samples), 0, slowRate};
+                    const auto partials = fit.partials();
+                    ASSERT_FALSE(partials.empty());
+                    const double omega = 2.0 * std::numbers::pi * frequencyHz;
+                    const auto nearest = std::ranges::min_element(
+                        partials, {}, [=](const Partial& p) { return std::abs(p.omega - omega); });
+                    const auto error =
+                        fit.errorOf(static_cast<std::size_t>(nearest - partials.begin())).omega / omega;
+                    EXPECT_GT(error, 0.6 * bound.frequency) << "colour " << colour << ", seed " << seed;
+                    if (colour == 0) EXPECT_LT(error, 2.0 * bound.frequency) << "white, seed " << seed;
+                }
+        }
 }
 
 } // namespace

@@ -2,7 +2,7 @@
 // Finds texts that a component cuts or crushes: JUCE ends a text that has no room with three dots, narrows
 // its letters, or lets the component's edge cut them.
 #pragma once
-#include "LetterRenderer.h"
+#include "Contrast.h"
 #include <cmath>
 #include <map>
 #include <vector>

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two laws, layouts or mixes are compared by one key, equally loud, and nothing is ever turned up.
+#include "Host/FakeAudioDevice.h"
+#include "Mixer/Model/MixerDevice.h"
 #include "MixerTesting.h"
+#include "Session/FakeHost.h"
+#include "Stimuli/SeededRandom.h"
 #include <cmath>
+#include <set>
 
 namespace physvib {
 namespace {
@@ -89,6 +94,108 @@ TEST(MixerCompare, TheWorldStaysAndUndoEndsTheComparison) {
     for (int k = 0; k < 4 && c.model.undoManager().canUndo(); ++k) c.model.undoManager().undo();
     EXPECT_FALSE(c.view.world().compare().isOn());
     EXPECT_EQ(c.model.mix().exponent, 1.0);
+}
+
+// A comparison leaves no level lowered, whichever side was the louder one and however often it is changed;
+// new strips get no output of ears or meters; and a dose that was felt stays what it was when the layout's
+// full scales change.
+
+using namespace test;
+
+TEST(MatchedLevels, BothSidesHaveTheirOwnAgainWhenTheyAreAlike) {
+    MixerModel desk{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
+    MixerView view{desk};
+    const auto key = [&] {
+        view.keyPressed(juce::KeyPress{'A', {}, 'a'});
+        desk.dispatchPendingMessages();
+    };
+    const auto gains = [&](double db) {
+        desk.change("Gains", [db](Mix& mix) {
+            for (Strip& strip : mix.strips) strip.gainDb = db;
+        });
+    };
+    gains(0.0);
+    const double level = desk.mix().levelDb;
+    key(); // B, a copy
+    for (const double other : {-12.0, -3.0, -20.0}) {
+        gains(other); // B is quieter
+        for (int times = 0; times < 3; ++times) {
+            key(); // A, turned down to be as loud as B
+            EXPECT_NEAR(desk.mix().levelDb, level + other, 0.05) << other;
+            key();
+            EXPECT_NEAR(desk.mix().levelDb, level, 0.05) << other << ": B was never turned down";
+        }
+        gains(0.0); // as loud as A again
+        key();
+        EXPECT_NEAR(desk.mix().levelDb, level, 0.05) << "after " << other;
+        key();
+    }
+}
+
+TEST(NewStrips, GetNoOutputOfEarsOrMeters) {
+    SeededRandom random{115};
+    int without = 0;
+    for (int round = 0; round < 5000; ++round) {
+        DeviceChoice choice;
+        choice.isHeadphones = random.chance(0.2);
+        for (std::size_t n = random.below(3); n > 0; --n)
+            choice.monitor.push_back(static_cast<int>(random.below(12)));
+        choice.marker = static_cast<int>(random.below(12)) - 1;
+        std::vector<Strip> strips(1 + random.below(8));
+        int last = 0;
+        for (Strip& strip : strips) strip.output = random.chance(0.2) ? -1 : last++;
+        const auto before = strips;
+        const std::size_t first = random.below(strips.size());
+        const auto told = placeNew(choice, strips, first);
+        std::set<int> used;
+        for (std::size_t j = 0; j < strips.size(); ++j) {
+            const int output = strips[j].output;
+            ASSERT_TRUE(j >= first || output == before[j].output);
+            if (output < 0) continue;
+            ASSERT_TRUE(used.insert(output).second) << "round " << round;
+            if (j < first) continue;
+            ASSERT_NE(output, choice.marker) << "round " << round << ": pulses at full scale";
+            ASSERT_EQ(std::ranges::count(choice.monitor, output), 0) << "round " << round;
+            ASSERT_TRUE(!choice.isHeadphones || output < 2);
+        }
+        for (const std::size_t j : told) ASSERT_EQ(strips[j].output, -1);
+        without += !told.empty();
+    }
+    EXPECT_GT(without, 10);
+}
+
+/// What was felt counts with the full scales of its time.
+TEST(Doses, OfBeforeKeepTheFullScalesOfBefore) {
+    SessionSetup setup = shakeTheBoxSetup(0.05);
+    Session session{setup};
+    FakeInterface hands;
+    AudioOutput output{session, fakeDrivers({&hands})};
+    ASSERT_EQ(output.open({"hands", {}, 0, 0, 1.0f}), "");
+    LayoutDescription layout = presetLayout("phone4");
+    const auto withScale = [&](double fullScaleG) {
+        for (EnchanterDescription& enchanter : layout.enchanters) enchanter.fullScaleG = fullScaleG;
+        return layout;
+    };
+    MixerExposure updated{output}, forgetful{output}, ofOne{output};
+    for (MixerExposure* exposure : {&updated, &forgetful, &ofOne}) exposure->use(withScale(1.0));
+    const auto play = [&] {
+        for (int k = 0; k < 1500; ++k) { // two seconds
+            if (k % 4 == 0) session.advance();
+            hands.play(64);
+        }
+    };
+    play();
+    updated.update();
+    const double before = updated.squareGSeconds();
+    EXPECT_GT(before, 0.0);
+    for (MixerExposure* exposure : {&updated, &forgetful}) exposure->use(withScale(4.0));
+    EXPECT_DOUBLE_EQ(forgetful.squareGSeconds(), before);
+    play();
+    for (MixerExposure* exposure : {&updated, &forgetful, &ofOne}) exposure->update();
+    EXPECT_GT(updated.squareGSeconds(), before);
+    const double more = ofOne.squareGSeconds() - before;
+    EXPECT_NEAR((updated.squareGSeconds() - before) / more, 16.0, 1e-9) << "in g: 4 squared";
+    EXPECT_DOUBLE_EQ(forgetful.squareGSeconds(), updated.squareGSeconds());
 }
 
 } // namespace

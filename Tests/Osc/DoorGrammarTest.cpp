@@ -2,7 +2,6 @@
 // Twenty thousand packets and lines of any kind; Tests/Hostile/Doors.cpp tries a million under the
 // sanitizers.
 #include "Osc/DoorGrammar.h"
-#include "Osc/DoorTrial.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What phones send: which way things fall, and that they fall there after ten minutes as well.
 #include "Host/Osc/OscReceiver.h"
+#include "Scene/SceneLimits.h"
 #include "Support/ClosedForm.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -82,6 +83,129 @@ TEST(PhoneSensors, TenMinutesDoNotDrift) {
     EXPECT_LT(told, 30'000) << "what does not matter is not logged";
     now = *pullOf(phone, "/accelerometer", {0.0, 9.0, 0.0});
     EXPECT_NEAR(now.metresPerSecond2.y, -9.0, 1e-12);
+}
+
+// What phones and time tags may do at most: no pull beyond a world's limit on either axis, however the phone
+// is held, and no clock that goes faster than it may.
+
+TEST(BoundedInputs, NoPhonePullsBeyondTheWorldsLimitOnAnyAxis) {
+    constexpr double most = sceneLimits::maxAccelerationMetresPerSecond2;
+    for (const double turn : {0.0, 0.5, std::numbers::pi / 2, std::numbers::pi, -2.0})
+        for (const double size : {0.5, 0.999, 1.001, 10.0, 1.0e6})
+            for (int k = 0; k < 8; ++k) {
+                const double angle = std::numbers::pi / 4 * k, x = size * most * std::cos(angle),
+                             y = size * most * std::sin(angle);
+                PhoneSensors phone{turn};
+                const auto pull =
+                    phone.read(*sensorFormat("/accelerometer"), {"/accelerometer", {x, y, 0.0}, oscNow});
+                ASSERT_TRUE(pull.value.has_value()) << pull.error;
+                // a phone tells what holds it: the pull is the other way
+                const double wantedX = -(std::cos(turn) * x - std::sin(turn) * y),
+                             wantedY = -(std::sin(turn) * x + std::cos(turn) * y);
+                EXPECT_NEAR(pull.value->metresPerSecond2.x, std::clamp(wantedX, -most, most), 1e-6 * most);
+                EXPECT_NEAR(pull.value->metresPerSecond2.y, std::clamp(wantedY, -most, most), 1e-6 * most);
+            }
+}
+
+/// After it has settled the clock follows a device at most as fast as it says, whatever the device does.
+TEST(BoundedInputs, TheClockNeverGoesFasterThanItMay) {
+    constexpr std::int64_t blockNs = 10'000'000, second = 1'000'000'000;
+    for (const double ppm : {0.0, 50.0, -50.0, 150.0, -150.0, 400.0, -400.0}) {
+        for (const std::int64_t stepNs :
+             {std::int64_t{0}, std::int64_t{3'000'000}, std::int64_t{-3'000'000}}) {
+            OscClock clock;
+            std::int64_t before = 0, last = 0;
+            for (std::int64_t block = 1; block * blockNs < 30 * second; ++block) {
+                const std::int64_t session = block * blockNs;
+                std::int64_t steady =
+                    7 * second + std::llround(static_cast<double>(session) * (1.0 + 1e-6 * ppm));
+                if (session > 5 * second) steady += stepNs; // as after a pause of the driver
+                clock.follow({session, steady, 0}, 0);
+                const std::int64_t now = clock.isReady() ? clock.sessionNs(0) : 0;
+                if (session > 3 * second && before != 0) {
+                    const std::int64_t most = (steady - last) * OscClock::maxSlewPpm / 1'000'000;
+                    EXPECT_LE(std::abs(now - before), most + 1)
+                        << ppm << " ppm, " << stepNs << " ns, at " << session;
+                }
+                before = now;
+                last = steady;
+            }
+        }
+    }
+}
+
+// Time tags: what they say, and that two of them lie as far apart in the session as with their sender.
+
+constexpr std::int64_t unixAhead = 1'700'000'000'000'000'000, blockNs = 10'666'667,
+                       outputLatencyNs = 50'000'000, deviceNs = 21'333'333;
+
+/// The block that begins at session time `sessionNs`, asked for `delayNs` after `steadyNs`.
+OutputMoment blockAt(std::int64_t sessionNs, std::int64_t steadyNs, std::int64_t delayNs) {
+    return {sessionNs - outputLatencyNs, steadyNs + delayNs + deviceNs, outputLatencyNs + deviceNs};
+}
+
+/// Blocks for `seconds` of a device that runs `ppm` too slow, each asked for up to `mostDelayNs` late.
+struct Device {
+    OscClock clock;
+    test::Random random{5};
+    std::int64_t block = 1000;
+    void play(double seconds, double ppm, int mostDelayNs) {
+        for (const std::int64_t end = block + static_cast<std::int64_t>(seconds * 1e9) / blockNs; block < end;
+             ++block)
+            clock.follow(
+                blockAt(block * blockNs,
+                        7'000'000'000 + std::llround(static_cast<double>(block * blockNs) * (1 + 1e-6 * ppm)),
+                        random.below(mostDelayNs + 1)),
+                unixAhead);
+    }
+};
+
+TEST(OscClocks, TagsAreSecondsSince1900) {
+    EXPECT_EQ(unixNsOf(OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32), 0);
+    EXPECT_EQ(unixNsOf((OscTag{static_cast<std::uint64_t>(oscEpochSeconds)} << 32) + 0x8000'0000u),
+              500'000'000);
+    // the last is behind 2036
+    for (const std::int64_t ns : {std::int64_t{0}, std::int64_t{1}, unixAhead + 123'456'789,
+                                  std::int64_t{999'999'999}, std::int64_t{2'500'000'000'999'999'999}})
+        EXPECT_EQ(unixNsOf(tagOf(ns)), ns);
+}
+
+TEST(OscClocks, WhatIsTaggedIsMeantForThePresentAndFeltLater) {
+    Device device;
+    device.play(3.0, 0.0, 0);
+    const std::int64_t present = 5'000'000'000, unix = unixAhead + 7'000'000'000 + present;
+    EXPECT_EQ(device.clock.sessionNs(unix), present);
+    EXPECT_EQ(device.clock.presentUnixNs(present), unix);
+    EXPECT_EQ(device.clock.feltUnixNs(present), unix + outputLatencyNs + deviceNs);
+}
+
+TEST(OscClocks, TheMomentIsHeldWhileBlocksComeLate) {
+    Device device;
+    device.play(3.0, 0.0, 3'000'000);
+    const std::int64_t before = device.clock.sessionNs(unixAhead);
+    EXPECT_LT(std::abs(before + 7'000'000'000), 400'000) << "the earliest block of a second";
+    device.play(60.0, 0.0, 3'000'000);
+    EXPECT_EQ(device.clock.sessionNs(unixAhead), before) << "to the nanosecond";
+}
+
+TEST(OscClocks, ADriftingDeviceIsFollowed) {
+    Device device;
+    device.play(600.0, 80.0, 100'000);
+    const auto now = static_cast<double>(device.block * blockNs);
+    EXPECT_NEAR(
+        static_cast<double>(device.clock.presentUnixNs(device.block * blockNs) - unixAhead - 7'000'000'000),
+        now * (1 + 80e-6), 1'200'000);
+}
+
+TEST(OscClocks, AnotherDeviceIsAnotherBeginning) {
+    Device device;
+    device.play(3.0, 0.0, 0);
+    device.clock.follow(blockAt(0, 90'000'000'000, 0), unixAhead);
+    EXPECT_EQ(device.clock.sessionNs(unixAhead + 90'000'000'000), 0);
+}
+
+TEST(OscClocks, TheSystemsClockIsReadAgainTheSame) {
+    EXPECT_LT(std::abs(unixAheadNs() - unixAheadNs()), 100'000'000);
 }
 
 } // namespace

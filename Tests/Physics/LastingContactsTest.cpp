@@ -2,8 +2,18 @@
 // What rolls and slides: grains where a pencil has them, silence where nothing moves.
 #include "AttachedWorld.h"
 #include "Contacts/Grains.h"
+#include "Core/PhantomPanner.h"
+#include "Measure/Spectrum.h"
+#include "Physics/Attachment.h"
+#include "Support/Rendering.h"
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <gtest/gtest.h>
 #include <numbers>
+#include <random>
+#include <span>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -240,6 +250,165 @@ TEST_F(Lasting, SeamsOfAChainAreNotHeard) {
     ASSERT_GT(events.size(), 950U);
     for (std::size_t i = 1; i < events.size(); ++i)
         EXPECT_NEAR(seconds(events[i]) - seconds(events[i - 1]), 0.005, 1.0e-5) << seconds(events[i]);
+}
+
+// What rolls, as four enchanters play it: where the phantom is, and which tone ridges give.
+
+constexpr int rate = 48'000;
+constexpr double fieldWidth = 4.4, fieldHeight = 1.7;
+
+/// A rough slope from the field's upper left corner, and a ball of 0.25 m that touches it there.
+class LastingFelt : public AttachedWorld {
+protected:
+    LastingFelt() {
+        world.SetGravity({0.0F, -10.0F});
+        world.SetAllowSleeping(false);
+    }
+    b2Fixture& slope(double degrees, const HapticFixture& values, float friction) {
+        const auto angle = static_cast<float>(-degrees * std::numbers::pi / 180.0);
+        along = {std::cos(angle), std::sin(angle)};
+        const b2Vec2 top{0.0F, static_cast<float>(fieldHeight)};
+        b2Fixture& ground = edge(top - 20.0F * along, top + 80.0F * along);
+        (void)attachment.set(ground, values);
+        b2Fixture& fixture = ball(top.x - 0.25F * along.y, top.y + 0.25F * along.x, 0.0F, 0.0F, 0.0F);
+        for (b2Fixture* each : {&ground, &fixture}) each->SetFriction(friction);
+        return fixture;
+    }
+    /// Four channels of what has happened.
+    static test::Channels felt(const std::vector<CollisionEvent>& events, PanningLaw law, double length) {
+        EnchanterLayout layout;
+        layoutPreset("phone4", layout);
+        RendererSettings settings{rate, 4, {layout, law, 1.0, fieldWidth, fieldHeight}};
+        settings.limiterEnabled = false;
+        return test::renderEvents(events, settings, static_cast<int>(length * rate)).channels;
+    }
+    b2Vec2 along{1.0F, 0.0F};
+};
+
+double power(std::span<const float> samples) {
+    double sum = 0.0;
+    for (const float x : samples) sum += static_cast<double>(x) * static_cast<double>(x);
+    return sum;
+}
+
+/// Where four channels' levels put the phantom: linear gains sum to one, squares of the energy law's do.
+b2Vec2 centroid(const test::Channels& channels, PanningLaw law, double from, double to) {
+    std::array<double, 4> share{};
+    for (std::size_t j = 0; j < 4; ++j) {
+        const double p = power(std::span{channels[j]}.subspan(static_cast<std::size_t>(from * rate),
+                                                              static_cast<std::size_t>((to - from) * rate)));
+        share[j] = law == PanningLaw::energy ? p : std::sqrt(p);
+    }
+    const double all = share[0] + share[1] + share[2] + share[3]; // A and C are left, A and B are up
+    return {static_cast<float>(fieldWidth * (share[1] + share[3]) / all),
+            static_cast<float>(fieldHeight * (share[0] + share[1]) / all)};
+}
+
+TEST_F(LastingFelt, PhantomFollowsARollingBall) {
+    constexpr double length = 1.8, window = 0.05;
+    HapticFixture wood{349.0, 106.99, true, 10.0};
+    wood.texture.grainMetres = 0.002;
+    const b2Body& ball = *slope(20.0, wood, 1.0F).GetBody();
+    std::vector<b2Vec2> touches; // after each step of 10 ms
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < 182; ++i) {
+        attachment.step(0.01F);
+        touches.push_back(ball.GetPosition() - 0.25F * b2Vec2{-along.y, along.x});
+    }
+    attachment.take(events);
+    ASSERT_GT(touches.back().x, 0.75F * static_cast<float>(fieldWidth));
+    for (const PanningLaw law : {PanningLaw::linear, PanningLaw::energy}) {
+        const test::Channels channels = felt(events, law, length);
+        for (double t = 0.2; t + window < length; t += window) {
+            const b2Vec2 truth = touches[static_cast<std::size_t>((t + 0.5 * window) * 100.0) - 1];
+            const b2Vec2 phantom = centroid(channels, law, t, t + window);
+            EXPECT_NEAR(phantom.x, truth.x, 0.03 * fieldWidth) << t;
+            EXPECT_NEAR(phantom.y, truth.y, 0.03 * fieldHeight) << t;
+        }
+    }
+}
+
+TEST_F(LastingFelt, RidgesPeakAtSpeedBySpacing) {
+    HapticFixture ridged{250.0, 60.0, true, 10.0};
+    ridged.texture = {0.002, 1.0, GrainPattern::regular};
+    slope(0.0, ridged, 0.0F).GetBody()->SetLinearVelocity({0.4F, 0.0F});
+    std::vector<CollisionEvent> events = run(300);
+    const test::Channels channels = felt(events, PanningLaw::linear, 2.5);
+    const std::vector<double> samples(channels[0].begin() + rate / 2, channels[0].end()); // 2 s
+    const std::vector<double> bins = magnitudes(samples);
+    const double perBin = 0.5 * rate / static_cast<double>(bins.size() - 1);
+    const auto highest =
+        std::ranges::max_element(bins.begin() + static_cast<std::ptrdiff_t>(20.0 / perBin), bins.end());
+    EXPECT_NEAR(static_cast<double>(highest - bins.begin()) * perBin, 200.0, 2.0);
+}
+
+// Grains become events as they are found, or by a list where times are looked at first: the same events, in
+// 400 random worlds.
+
+class Yard {
+public:
+    explicit Yard(std::uint32_t seed)
+        : random_{seed} {
+        const b2BodyDef def;
+        b2EdgeShape floor;
+        floor.SetTwoSided({-20.0F, 0.0F}, {20.0F, 0.0F});
+        give(*world_.CreateBody(&def)->CreateFixture(&floor, 0.0F), true);
+        for (int i = 0; i < 6; ++i) addBody(static_cast<float>(i));
+    }
+    /// Events of both attachments after so many steps.
+    void run(int steps, std::vector<CollisionEvent>& direct, std::vector<CollisionEvent>& listed) {
+        for (int i = 0; i < steps; ++i) {
+            if (i % 20 == 0) world_.SetGravity({4.0F * drawn() - 2.0F, -9.8F});
+            listed_.beginStep(0.01);
+            direct_.step(0.01F);
+            listed_.endStep();
+            direct_.take(direct);
+            listed_.take(listed);
+        }
+    }
+
+private:
+    float drawn() { return static_cast<float>(random_() % 1000) / 1000.0F; }
+    void give(const b2Fixture& fixture, bool isSource) {
+        HapticFixture values{200.0, 40.0, isSource, 5.0, static_cast<Voice>(random_() % 3)};
+        values.texture.grainMetres = random_() % 3 == 0 ? 0.0 : 0.001 + 0.02 * static_cast<double>(drawn());
+        values.texture.pattern = random_() % 2 == 0 ? GrainPattern::random : GrainPattern::regular;
+        values.gain = random_() % 6 == 0 ? 0.0 : 1.0;
+        if (random_() % 3 == 0) values.overtones[1] = {500.0, 60.0, 0.5};
+        ASSERT_TRUE(direct_.set(fixture, values));
+        ASSERT_TRUE(listed_.set(fixture, values));
+    }
+    void addBody(float x) {
+        b2BodyDef def;
+        def.type = b2_dynamicBody;
+        def.position = {1.2F * x - 3.0F, 0.3F};
+        def.linearVelocity = {3.0F * drawn() - 1.5F, 0.0F};
+        b2CircleShape circle;
+        circle.m_radius = 0.25F;
+        b2PolygonShape box;
+        box.SetAsBox(0.3F, 0.2F);
+        const bool isDisc = random_() % 2 == 0;
+        b2Fixture& fixture =
+            *world_.CreateBody(&def)->CreateFixture(isDisc ? static_cast<b2Shape*>(&circle) : &box, 10.0F);
+        fixture.SetFriction(drawn());
+        give(fixture, random_() % 2 == 0);
+    }
+
+    std::mt19937 random_;
+    b2World world_{{0.0F, -9.8F}};
+    Attachment direct_{world_};
+    Attachment listed_{world_, {.settlingSeconds = 1.0e-12}}; // leaves nothing out, but looks at every time
+};
+
+TEST(TwoWaysOfGrains, MakeTheSameEvents) {
+    std::size_t grains = 0;
+    for (std::uint32_t seed = 1; seed <= 400; ++seed) {
+        std::vector<CollisionEvent> direct, listed;
+        Yard{seed}.run(60, direct, listed);
+        ASSERT_EQ(direct, listed) << "world " << seed;
+        for (const CollisionEvent& event : direct) grains += event.source.kind != ContactKind::hit ? 1 : 0;
+    }
+    EXPECT_GT(grains, 10'000U);
 }
 
 } // namespace

@@ -2,7 +2,12 @@
 // Box2D worlds from which nothing is felt, each for one reason: the explanation names it.
 #include "AttachedWorld.h"
 #include "Core/PhantomPanner.h"
+#include "Physics/Attachment.h"
+#include "Support/Rendering.h"
+#include <cmath>
+#include <gtest/gtest.h>
 #include <string>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -114,6 +119,110 @@ TEST_F(SilentBoxes, NameTheOutput) {
     expect(attachment.explain(&output), "3 events belong to a part of the body that no actuator is on");
     output.levelGain = 0.0;
     expect(attachment.explain(&output), "level of the output is 0");
+}
+
+// Worlds as a newcomer makes them, with the automatic full-scale impulse: none clips and none whispers.
+
+constexpr HapticFixture felt{.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true};
+
+/// The peak of the samples, without a limiter, of 4 actuators at the corners of the field.
+double peakOf(const std::vector<CollisionEvent>& events, double width, double height, double seconds) {
+    EnchanterLayout layout;
+    layoutPreset("phone4", layout);
+    RendererSettings settings;
+    settings.limiterEnabled = false;
+    settings.channels = 4;
+    settings.panner = {layout, PanningLaw::linear, 1.0, width, height};
+    float peak = 0.0F;
+    const auto frames = static_cast<int>(std::lround(seconds * settings.sampleRateHz));
+    for (const auto& channel : test::renderEvents(events, settings, frames).channels)
+        for (const float sample : channel) peak = std::max(peak, std::abs(sample));
+    return static_cast<double>(peak);
+}
+
+/// A walled field that is `width` by `height`.
+struct Room {
+    Room(float w, float h, float gravity, double fullScaleNewtonSeconds)
+        : width{w}
+        , height{h}
+        , world{{0.0F, gravity}}
+        , haptics{world, {.fieldWidthMetres = w, .fullScaleNewtonSeconds = fullScaleNewtonSeconds}} {
+        b2BodyDef def;
+        b2Body* const walls = world.CreateBody(&def);
+        const b2Vec2 corners[] = {{0.0F, 0.0F}, {w, 0.0F}, {w, h}, {0.0F, h}};
+        for (int i = 0; i < 4; ++i) {
+            b2EdgeShape edge;
+            edge.SetTwoSided(corners[i], corners[(i + 1) % 4]);
+            walls->CreateFixture(&edge, 0.0F)->SetRestitution(0.3F);
+        }
+    }
+    b2Body& add(float x, float y, b2Shape& shape, float restitution, double massKg) {
+        b2BodyDef def;
+        def.type = b2_dynamicBody;
+        def.bullet = true;
+        def.position = {x, y};
+        b2Body* const body = world.CreateBody(&def);
+        b2MassData unit;
+        shape.ComputeMass(&unit, 1.0F);
+        b2Fixture* const fixture = body->CreateFixture(&shape, static_cast<float>(massKg) / unit.mass);
+        fixture->SetRestitution(restitution);
+        EXPECT_TRUE(haptics.set(*fixture, felt));
+        return *body;
+    }
+    template <class Act>
+    double peak(double seconds, int stepsPerSecond, Act act) {
+        std::vector<CollisionEvent> events;
+        for (int i = 0; i < std::lround(seconds * stepsPerSecond); ++i) {
+            act(i);
+            haptics.step(1.0F / static_cast<float>(stepsPerSecond));
+        }
+        haptics.take(events);
+        EXPECT_GT(events.size(), 3U);
+        return peakOf(events, static_cast<double>(width), static_cast<double>(height), seconds);
+    }
+    float width, height;
+    b2World world;
+    Attachment haptics;
+};
+
+double ball(double massKg, double full) {
+    Room room{1.0F, 1.0F, -9.81F, full};
+    b2CircleShape disc;
+    disc.m_radius = 0.05F;
+    room.add(0.3F, 0.85F, disc, 0.6F, massKg);
+    return room.peak(3.0, 100, [](int) {});
+}
+
+double heap(double massKg, double full) {
+    Room room{8.0F, 6.0F, -9.81F, full};
+    b2PolygonShape box;
+    box.SetAsBox(0.25F, 0.25F);
+    for (int i = 0; i < 40; ++i)
+        room.add(2.0F + 0.37F * static_cast<float>(i % 11), 0.5F + 0.13F * static_cast<float>(i), box, 0.3F,
+                 massKg);
+    return room.peak(5.0, 100, [](int) {});
+}
+
+double pinball(double massKg, double full) {
+    Room room{0.5F, 1.0F, -1.2F, full};
+    b2CircleShape disc;
+    disc.m_radius = 0.0135F;
+    b2Body& thrown = room.add(0.25F, 0.5F, disc, 0.5F, massKg);
+    return room.peak(10.0, 240, [&thrown](int i) {
+        const auto turn = static_cast<float>(i);
+        if (i % 120 == 0)
+            thrown.SetLinearVelocity({3.0F * std::cos(turn), 3.0F + 5.0F * std::abs(std::sin(turn))});
+    });
+}
+
+TEST(FirstWorlds, NeitherClipNorWhisperWhateverTheirMasses) {
+    for (const double massKg : {0.01, 0.1, 1.0, 10.0})
+        for (double (*const world)(double, double) : {ball, heap, pinball}) {
+            const double peak = world(massKg, ImpactSettings::automatic);
+            EXPECT_LT(peak, 1.0) << massKg;
+            EXPECT_GT(peak, 0.2) << massKg;
+        }
+    EXPECT_GT(pinball(0.1, 0.0), 2.0); // what they would do without it
 }
 
 } // namespace

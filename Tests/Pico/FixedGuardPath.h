@@ -2,7 +2,7 @@
 // The Pico's guard, for GuardAttack: a sample stands for a tile.
 #pragma once
 #include "Signal/FixedGuard.h"
-#include "Support/GuardPaths.h"
+#include "Support/GuardAttack.h"
 
 namespace physvib::test {
 

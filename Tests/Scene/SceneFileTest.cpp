@@ -315,10 +315,6 @@ TEST(SceneFile, OnlyItsOwnVersionsAreRead) {
     EXPECT_EQ(errorOf("[]"), "my.json: expected an object, found an array");
 }
 
-TEST(SceneFile, SyntaxErrorsNameLineAndColumn) {
-    EXPECT_TRUE(errorOf("{\n  \"name\": oops\n}").starts_with("my.json: line 2, column 11: "));
-}
-
 TEST(SceneFile, AbsurdRequestsAreRefusedWithTheLimit) {
     std::string bodies;
     for (int i = 0; i < 5000; ++i) bodies += "0,";

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Which action happens in which step.
+#include "Scene/SceneEdits.h"
+#include "Scene/SceneFields.h"
 #include "Scene/World/SceneWorld.h"
+#include <array>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace physvib {
 namespace {
@@ -81,6 +85,47 @@ TEST(SceneScript, EmptyScriptDoesNothing) {
     const Scene scene = scripted({}, 1.0);
     SceneScript script(scene, {100});
     EXPECT_TRUE(tilts(script, 0, 1000).empty());
+}
+
+// Which actions change a scene permanently, and which of a script a user takes over.
+
+using Names = std::vector<std::string_view>;
+
+/// One action of each kind, in the order of actionNames.
+const auto actions = []<std::size_t... kinds>(std::index_sequence<kinds...>) {
+    return std::array{Action{std::in_place_index<kinds>}...};
+}
+(std::make_index_sequence<actionNames.size()>{});
+
+TEST(SceneEdits, LastingIsWhatAddsRemovesOrChangesSomethingOfTheScene) {
+    Names lasting;
+    for (const Action& action : actions)
+        if (isLasting(action)) lasting.push_back(actionNames[action.index()]);
+    EXPECT_EQ(lasting, (Names{"spawn", "remove", "camera", "material", "sound", "texture", "change", "join",
+                              "unjoin"}));
+}
+
+TEST(SceneEdits, AScriptLeavesToHandsWhatTheyDo) {
+    Scene scene;
+    for (const Action& action : actions) scene.script.push_back({0.0, 1, 0.0, action});
+    Names left;
+    for (const ScriptInput& input : sceneForHands(scene).script)
+        left.push_back(actionNames[input.action.index()]);
+    EXPECT_EQ(left, (Names{"spawn", "remove", "motor", "camera", "material", "sound", "texture", "change",
+                           "join", "unjoin"}));
+}
+
+// Step times are exact integers at any rate and any length of run.
+
+TEST(StepClock, RoundsEveryStepForItselfSoThatNothingDrifts) {
+    const StepClock clock{60};
+    EXPECT_EQ(clock.timeNs(1), 16'666'666);
+    EXPECT_EQ(clock.timeNs(60), 1'000'000'000);
+    EXPECT_EQ(clock.timeNs(60LL * 86'400 * 11), 950'400'000'000'000);
+}
+
+TEST(StepClock, DoesNotOverflowInLongRuns) {
+    EXPECT_EQ(StepClock{10'000}.timeNs(10'000'000'001LL), 1'000'000'000'100'000);
 }
 
 } // namespace

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // SessionClock: calls that come late, a crystal that drifts, a device that pauses.
+#include "Live/Session/OfflineRender.h"
 #include "Live/Session/OutputClock.h"
 #include <algorithm>
+#include <chrono>
 #include <gtest/gtest.h>
 #include <random>
+#include <thread>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -54,6 +58,77 @@ TEST(SessionClock, TheSameMomentAgainChangesNothing) {
     SessionClock clock;
     for (int i = 0; i < 5; ++i) clock.add({1000, 2000});
     EXPECT_EQ(clock.steadyAt(0), 1000);
+}
+
+// What a device tells whoever follows it.
+
+struct Device final : OutputClock {
+    using OutputClock::OutputClock;
+    using OutputClock::tell;
+};
+
+TEST(OutputClock, EachOfSeveralReadersSeesMomentsWholeAndInTheirOrder) {
+    constexpr int moments = 20'000;
+    Device device;
+    std::vector<std::thread> readers;
+    for (int i = 0; i < 3; ++i)
+        readers.emplace_back([&device] {
+            for (std::int64_t last = 0; last < moments;) {
+                const OutputMoment now = device.felt();
+                ASSERT_GE(now.sessionNs, last);
+                ASSERT_EQ(now.steadyNs, now.sessionNs);
+                ASSERT_EQ(now.behindNs, now.sessionNs);
+                ASSERT_EQ(now.sampleRateHz, now.sessionNs);
+                last = now.sessionNs;
+            }
+        });
+    for (int n = 1; n <= moments; ++n) device.tell({n, n, n, n});
+    for (std::thread& reader : readers) reader.join();
+}
+
+TEST(OutputClock, IsSilentWhileSomebodyAsksForItOrTheProgramEnds) {
+    std::atomic<bool> isEnded{false};
+    Device device{&isEnded};
+    EXPECT_FALSE(device.isSilent());
+    device.silence().request(MuteRequester::osc);
+    EXPECT_TRUE(device.isSilent());
+    device.setSilent(false);
+    EXPECT_FALSE(device.isSilent());
+    isEnded = true;
+    EXPECT_TRUE(device.isSilent());
+}
+
+// What a world is given up for is the processor's time, not that of the day.
+
+TEST(Patience, WaitingIsNoSlowWorld) {
+    Patience patience{0.05};
+    std::this_thread::sleep_for(std::chrono::milliseconds{200}); // as on a machine where others work
+    EXPECT_TRUE(patience(0));
+    EXPECT_EQ(patience.fault(), "");
+}
+
+TEST(Patience, WorkIsGivenUp) {
+    Patience patience{0.05};
+    const double end = threadSeconds() + 0.15;
+    while (threadSeconds() < end) {
+    }
+    EXPECT_TRUE(patience(1'000'000'000)) << "a second was simulated";
+    EXPECT_FALSE(patience(10'000'000));
+    EXPECT_TRUE(patience.fault().starts_with(
+        "expected a world that is simulated as fast as it lasts, found 0.01 s of it after 0."))
+        << patience.fault();
+    EXPECT_TRUE(patience.fault().ends_with(" s of processor time (--patience waits longer)"))
+        << patience.fault();
+}
+
+TEST(Patience, AnotherThreadsWorkIsNotCounted) {
+    Patience patience{0.05};
+    std::thread{[] {
+        const double end = threadSeconds() + 0.15;
+        while (threadSeconds() < end) {
+        }
+    }}.join();
+    EXPECT_TRUE(patience(0));
 }
 
 } // namespace

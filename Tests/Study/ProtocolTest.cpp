@@ -1,7 +1,14 @@
 // SPDX-License-Identifier: MIT
 // What a protocol may say, the stimuli it names, and the orders it makes.
 #include "Lab/Study/Protocol.h"
+#include "Io/Disk/ReadFile.h"
+#include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/Experiment.h"
+#include "Lab/Study/Stimulus.h"
+#include "Lab/Study/StudyOrder.h"
+#include "Lab/Study/StudyPlan.h"
+#include "Lab/Study/StudyTasks.h"
+#include "TestPlaces.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <map>
@@ -225,6 +232,147 @@ TEST(SeededRandom, IsTheSameOnEveryMachineAndFairEnough) {
     for (const int face : dice) EXPECT_NEAR(face, 10000, 400);
     EXPECT_NEAR(sum / 60000, 0.0, 0.02);
     EXPECT_NEAR(squares / 60000, 1.0, 0.03);
+}
+
+// What a protocol will ask for, against counts by hand.
+
+Protocol builtIn(const std::string& name) { return findProtocol(name).value; }
+
+/// Four conditions of one pattern each.
+Protocol four(Protocol::ConditionOrder order) {
+    Protocol protocol;
+    protocol.conditionOrder = order;
+    for (const char* name : {"a", "b", "c", "d"}) {
+        protocol.conditions.push_back({});
+        protocol.conditions.back().name = name;
+        protocol.conditions.back().stimuli = PatternSet{2};
+    }
+    protocol.sessions.push_back({});
+    protocol.sessions.back().name = "main";
+    return protocol;
+}
+
+TEST(StudyPlan, EveryPartOfEveryStimulusIsPlannedAtItsLowestAndHighestLevel) {
+    const auto planned = plannedStimuli(builtIn("model-or-sound"));
+    ASSERT_EQ(planned.size(), 27u * (2u + 1u));
+    for (const PlannedStimulus& s : planned)
+        EXPECT_EQ(s.levelDb, s.part == "SV" ? -8.0 : s.isHighest ? -2.0 : -38.0) << s.part;
+    const TrialJob job = planned.front().job(builtIn("model-or-sound"));
+    EXPECT_NE(std::get<WrittenCall>(job).words.find("--level-db -38"), std::string::npos)
+        << std::get<WrittenCall>(job).words;
+    EXPECT_EQ(plannedStimuli(builtIn("patterns")).size(), 2u * (28u + 78u + 168u));
+    EXPECT_EQ(plannedStimuli(builtIn("eight-methods")).size(), 24u);
+}
+
+TEST(StudyPlan, LevelsAddUpAsAnExperimentAddsThem) {
+    Protocol protocol = builtIn("model-or-sound");
+    for (Alternative& alternative : protocol.sessions[1].alternatives) alternative.levelDb = 3.0;
+    for (const PlannedStimulus& s : plannedStimuli(protocol)) {
+        if (!s.isHighest) continue;
+        // 3 dB, and -2 dB that may have been set
+        EXPECT_EQ(s.levelDb, s.part == "SV" ? 3.0 : 1.0) << s.part;
+        EXPECT_EQ(s.session, 1u);
+    }
+    const StaircasePlan staircase = *builtIn("level-steps").sessions[0].staircase;
+    for (const PlannedStimulus& s : plannedStimuli(builtIn("level-steps")))
+        EXPECT_EQ(s.levelDb, s.part == staircase.alternative && s.isHighest ? staircase.mostDb : 0.0);
+}
+
+TEST(StudyPlan, TrialsAreThoseOfTheProtocol) {
+    const auto second = [](std::size_t, const std::string&, const std::string&) { return 1.0; };
+    const PlannedTime time = plannedTime(builtIn("model-or-sound"), second);
+    EXPECT_EQ(time.trials, 27 + 108);
+    EXPECT_NEAR(time.seconds, 135 * (2.0 + PlannedTime::answerSeconds) + 180.0, 1e-6);
+    EXPECT_NEAR(time.longestStretchSeconds, (27 + 54) * (2.0 + PlannedTime::answerSeconds), 1e-6);
+    double trials = 0.0;
+    for (const PlannedTrials& planned : plannedTrials(builtIn("model-or-sound")))
+        trials += planned.part == "SV" ? planned.count : 0;
+    EXPECT_EQ(trials, 135.0);
+}
+
+TEST(StudyPlan, TouchesOfATrainingAreSharedByItsPlacesWithoutARest) {
+    double touches = 0.0;
+    for (const PlannedTrials& planned : plannedTrials(builtIn("phantom-places"))) touches += planned.count;
+    EXPECT_NEAR(touches, 4 * (100 + 175), 1e-9); // 35 places: 2.86 touches each, not 2
+}
+
+TEST(StudyPlan, AWorldWithHandsLastsAsLongAsTheSessionAsks) {
+    const auto nothing = [](std::size_t, const std::string&, const std::string&) { return 0.0; };
+    const PlannedTime time = plannedTime(builtIn("eight-methods"), nothing);
+    EXPECT_EQ(time.trials, 16 + 80);
+    EXPECT_GT(time.seconds, 96 * 30.0);
+}
+
+TEST(StudyPlan, ASquareOfFourIsBalancedForFourAndNotForFive) {
+    const Protocol square = four(Protocol::ConditionOrder::latinSquare);
+    const OrderBalance whole = orderBalance(square, 4);
+    EXPECT_TRUE(whole.isBalanced());
+    EXPECT_EQ(whole.fewestAtPlace, 1);
+    EXPECT_EQ(whole.possibleSuccessions, 12);
+    EXPECT_FALSE(orderBalance(square, 5).isBalanced());
+    const OrderBalance given = orderBalance(four(Protocol::ConditionOrder::given), 8);
+    EXPECT_EQ(given.fewestAtPlace, 0);
+    EXPECT_EQ(given.mostAtPlace, 8);
+    EXPECT_EQ(given.successions, 3);
+}
+
+// Stimuli as values: what is wrong with one, and the words that make it again.
+
+std::string faultText(const StimulusJob& job) {
+    const JobFault fault = faultOf(job);
+    return fault ? fault.words() : std::string{};
+}
+
+TEST(StimulusJob, ItsWordsAreThoseOfTheProgram) {
+    EXPECT_EQ(textOf(StimulusJob{PatternJob{"ABA-250", 0.2}, "ring3", std::nullopt, 0.5}),
+              "stimulus pattern ABA-250 --layout ring3 --frequency resonance --level-g 0.5 --gap 0.2");
+    EXPECT_EQ(textOf(StimulusJob{PhantomJob{FieldPlace{0.25, 1.0}}}),
+              "stimulus phantom --at 0.25,1 --layout phone4 --frequency 205 --level-g 1 --law linear "
+              "--exponent 1 --seconds 1");
+    const GridPlace cell{{7, 5, PhantomGrid::Points::middles}, {2, 6}};
+    EXPECT_EQ(textOf(StimulusJob{PhantomJob{cell, PanningLaw::energy, 2.0, 0.5}, "phone4", 60.5}),
+              "stimulus phantom --grid 7x5 --cell 2,6 --points middles --layout phone4 --frequency 60.5 "
+              "--level-g 1 --law energy --exponent 2 --seconds 0.5");
+}
+
+TEST(StimulusJob, FaultsNameTheWord) {
+    EXPECT_EQ(faultText({PatternJob{"ABA-250"}}), "");
+    EXPECT_EQ(faultText({PhantomJob{GridPlace{{7, 5}, {5, 7}}}}), "");
+    EXPECT_EQ(faultText({PatternJob{"250"}}),
+              "expected a pattern like ABA-250 (one to three enchanters, then milliseconds)");
+    EXPECT_EQ(faultText({PhantomJob{FieldPlace{0.5, 1.1}}}), "--at: expected X,Y from 0 to 1");
+    EXPECT_EQ(faultText({PhantomJob{GridPlace{{17, 5}, {1, 1}}}}), "--grid: expected COLUMNSxROWS like 7x5");
+    EXPECT_EQ(faultText({PhantomJob{GridPlace{{7, 5}, {0, 1}}}}),
+              "--cell: expected r,c of the grid (row 1 is the upper one)");
+    EXPECT_EQ(faultText({PhantomJob{FieldPlace{}, PanningLaw::linear, 0.0}}),
+              "--exponent: expected 0.01 to 100");
+    EXPECT_EQ(faultText({PatternJob{"A-100"}, "phone4", 0.0}),
+              "--frequency: expected 5 to 20000 Hz, or resonance");
+    EXPECT_EQ(faultText({PatternJob{"A-100"}, "phone4", 205.0, 2000.0}), "--level-g: expected 1e-06 to 1000");
+}
+
+TEST(StimulusJob, IsEqualIfAllOfItIs) {
+    const StimulusJob one{PhantomJob{FieldPlace{0.5, 0.5}}};
+    StimulusJob other = one;
+    EXPECT_EQ(one, other);
+    std::get<PhantomJob>(other.what).law = PanningLaw::log;
+    EXPECT_NE(one, other);
+}
+
+// The page that users read names every task of the table.
+
+TEST(StudyTasks, EachHasALineInTheTableOfProtocols) {
+    const auto studies = readFile(PHYSVIB_SOURCE_DIR "/Docs/protocols.md", 1'000'000);
+    ASSERT_TRUE(studies) << studies.error;
+    for (const auto& task : studyTasks)
+        EXPECT_NE(studies.value.find("\n| `" + std::string{task.name} + "` | "), std::string::npos)
+            << task.name;
+}
+
+TEST(StudyTasks, NamesAreFoundAndOthersAreNot) {
+    for (const auto& task : studyTasks) EXPECT_EQ(studyTaskNamed(task.name), &describe(task.task));
+    EXPECT_EQ(studyTaskNamed("count"), nullptr);
+    EXPECT_EQ(answerOf("").has_value(), false);
 }
 
 } // namespace

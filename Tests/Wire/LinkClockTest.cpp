@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The board's clock seen through delays of 10 to 30 ms and a drift of 300 ppm, for ten minutes.
 #include "Wire/LinkClock.h"
+#include "Wire/FrameDecoder.h"
+#include "Wire/Frames.h"
 #include "Wire/Messages.h"
+#include <array>
 #include <gtest/gtest.h>
 #include <iostream>
 #include <random>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -98,6 +102,107 @@ TEST(LinkClock, IsNotReadyBeforeItKnows) {
     EXPECT_TRUE(clock.isReady());
     clock.clear();
     EXPECT_FALSE(clock.isReady());
+}
+
+// CRC-16 and COBS: published check values, round trips, broken frames.
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes encoded(const Bytes& payload) {
+    Bytes out(cobsMaxEncoded(payload.size()));
+    out.resize(cobsEncode(payload, out));
+    return out;
+}
+
+TEST(Crc16, HasTheCataloguedCheckValue) {
+    constexpr std::array<std::uint8_t, 9> digits{'1', '2', '3', '4', '5', '6', '7', '8', '9'};
+    EXPECT_EQ(crc16(digits), 0x29B1);
+}
+
+TEST(Cobs, EncodesThePublishedExamples) {
+    EXPECT_EQ(encoded({0}), (Bytes{1, 1}));
+    EXPECT_EQ(encoded({0x11, 0x22, 0, 0x33}), (Bytes{3, 0x11, 0x22, 2, 0x33}));
+}
+
+TEST(Cobs, RoundTripsEverythingWithoutAZero) {
+    std::mt19937 random{4};
+    for (int i = 0; i < 3000; ++i) {
+        Bytes payload(random() % 600);
+        for (auto& b : payload) b = static_cast<std::uint8_t>(random() % (1 + random() % 256));
+        const Bytes frame = encoded(payload);
+        ASSERT_EQ(std::count(frame.begin(), frame.end(), 0), 0);
+        Bytes back(payload.size());
+        ASSERT_EQ(cobsDecode(frame, back), static_cast<int>(payload.size()));
+        ASSERT_EQ(back, payload);
+    }
+}
+
+TEST(Cobs, BrokenFramesAreRefused) {
+    Bytes out(8);
+    EXPECT_EQ(cobsDecode(Bytes{5, 1, 2}, out), -1); // group longer than the frame
+    EXPECT_EQ(cobsDecode(Bytes{3, 0, 2}, out), -1); // a zero inside
+    EXPECT_EQ(cobsDecode(Bytes{0}, out), -1);
+    EXPECT_EQ(cobsDecode(encoded(Bytes(9, 7)), out), -1); // does not fit
+}
+
+TEST(Cobs, GarbageNeverWritesPastTheEnd) {
+    std::mt19937 random{9};
+    for (int i = 0; i < 20000; ++i) {
+        Bytes frame(random() % 40), out(random() % 20);
+        for (auto& b : frame) b = static_cast<std::uint8_t>(random() % 24);
+        ASSERT_LE(cobsDecode(frame, out), static_cast<int>(out.size()));
+    }
+}
+
+// What comes again is not played again; what was lost is counted, and what comes after is played.
+
+struct Stream {
+    wire::StrikeOrder order;
+    std::uint32_t frame = 4'294'960'000u; // the counter is over soon
+    std::uint8_t sequence = 0xFF;
+    /// The next strike, 60 ms before its onset.
+    bool next() {
+        frame += 11;
+        return order.isNew(++sequence, frame, frame - 480);
+    }
+    /// That of `ago` strikes before, once more.
+    bool again(int ago) {
+        return order.isNew(static_cast<std::uint8_t>(sequence - ago),
+                           frame - 11u * static_cast<std::uint32_t>(ago), frame - 480);
+    }
+};
+
+TEST(StrikeOrder, NothingIsPlayedTwice) {
+    Stream stream;
+    for (int i = 0; i < 1000; ++i) {
+        ASSERT_TRUE(stream.next()) << i;
+        for (const int ago : {0, 1, 2, 30, 127})
+            if (ago <= i) ASSERT_FALSE(stream.again(ago)) << i << ' ' << ago;
+    }
+    for (int ago = 0; ago < 1000; ++ago)
+        if (ago < 128 || ago * 11 - 480 > 2000) EXPECT_FALSE(stream.again(ago)) << ago;
+    EXPECT_EQ(stream.order.lost(), 0u);
+    EXPECT_TRUE(stream.next());
+}
+
+TEST(StrikeOrder, AnOnsetBeforeTheLastOneIsNoRepetition) {
+    wire::StrikeOrder order;
+    EXPECT_TRUE(order.isNew(0, 1000, 500));
+    EXPECT_TRUE(order.isNew(1, 900, 500));
+    EXPECT_TRUE(order.isNew(2, 900, 500)) << "a chord";
+    EXPECT_FALSE(order.isNew(1, 900, 500));
+}
+
+TEST(StrikeOrder, LostStrikesAreCountedAndNothingWaitsForThem) {
+    for (const int lost : {1, 5, 126, 127, 200, 254, 255}) {
+        Stream stream;
+        for (int i = 0; i < 10; ++i) ASSERT_TRUE(stream.next());
+        stream.sequence = static_cast<std::uint8_t>(stream.sequence + lost);
+        stream.frame += 11u * static_cast<std::uint32_t>(lost);
+        EXPECT_TRUE(stream.next()) << lost;
+        EXPECT_EQ(stream.order.lost(), static_cast<std::uint32_t>(lost));
+        EXPECT_TRUE(stream.next()) << lost;
+    }
 }
 
 } // namespace

@@ -102,8 +102,11 @@ EnchanterLayout presetOf(std::string_view name) {
     return layout;
 }
 
-TEST(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindowsSize) {
+struct Window : testing::Test {
     TestFolder folder;
+};
+
+TEST_F(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindowsSize) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     auto& view = window.view().world().view();
@@ -125,8 +128,7 @@ TEST(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindows
     }
 }
 
-TEST(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
-    TestFolder folder;
+TEST_F(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
     FakeInterface speakers;
     speakers.outputs = 2;
     {
@@ -149,8 +151,7 @@ TEST(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
     EXPECT_FALSE(again.model().trouble().contains("headphones")) << again.model().trouble();
 }
 
-TEST(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
-    TestFolder folder;
+TEST_F(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     auto& view = window.view().world().view();
@@ -186,8 +187,7 @@ TEST(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
     EXPECT_TRUE(window.model().trouble().isEmpty()) << window.model().trouble();
 }
 
-TEST(Window, APersonsWayThroughTheMixer) {
-    TestFolder folder;
+TEST_F(Window, APersonsWayThroughTheMixer) {
     juce::File wav;
     std::int64_t from = 0, playOut = 0;
     {
@@ -290,8 +290,7 @@ TEST(Window, APersonsWayThroughTheMixer) {
     EXPECT_FALSE(again.isChanged());
 }
 
-TEST(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
-    TestFolder folder;
+TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
     Hand hand{window};
     auto& view = window.view().world().view();
@@ -402,8 +401,7 @@ void expectLowered(const Mix& mix) {
     EXPECT_EQ(mix.strips[3].output, -1);
 }
 
-TEST(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
-    TestFolder folder;
+TEST_F(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
     const auto theirs = loudSession(folder);
     {
         MixerWindow window{onlyNoDevice(), "None:no device", folder("mine.json"), folder("config")};
@@ -431,8 +429,7 @@ TEST(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
     EXPECT_EQ(again.model().mix().levelDb, -30.0);
 }
 
-TEST(Window, ASessionOfOnesOwnComesBackAsItWasSavedUnlessItWasChangedSince) {
-    TestFolder folder;
+TEST_F(Window, ASessionOfOnesOwnComesBackAsItWasSavedUnlessItWasChangedSince) {
     const auto mine = folder("mine.json");
     const auto save = [&](const char* name, double levelDb, int output) {
         MixerWindow window{onlyNoDevice(), "None:no device", folder(name), folder("config")};
@@ -451,8 +448,7 @@ TEST(Window, ASessionOfOnesOwnComesBackAsItWasSavedUnlessItWasChangedSince) {
     EXPECT_EQ(opened(), (std::pair{-40.0, -1}));
 }
 
-TEST(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
-    TestFolder folder;
+TEST_F(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     const auto next = [&](double leftDb, double asksDb, bool isSilent) {
         MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
         EXPECT_EQ(window.model().mix().levelDb, asksDb) << "after " << leftDb;
@@ -484,10 +480,10 @@ TEST(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     next(-6.0, MixerModel::firstMix().levelDb, false);
 }
 
-TEST(Window, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
+TEST_F(Window, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
     for (const char* answer : {"Do not save", "Save"}) {
-        TestFolder folder; // a card asks for what the first leaves behind
-        MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
+        TestFolder own; // a card asks for what the first leaves behind
+        MixerWindow window{onlyNoDevice(), "None:no device", own("hands.json"), own("config")};
         Hand hand{window};
         auto& view = window.view().world().view();
         window.model().setSlowness(0);
@@ -521,8 +517,7 @@ TEST(Window, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
     }
 }
 
-TEST(Window, ASessionSavedPausedOpensPaused) {
-    TestFolder folder;
+TEST_F(Window, ASessionSavedPausedOpensPaused) {
     for (const int slowness : {0, 8, 1}) {
         {
             MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
@@ -540,8 +535,7 @@ TEST(Window, ASessionSavedPausedOpensPaused) {
     }
 }
 
-TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
-    TestFolder folder;
+TEST_F(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
     const auto cwd = folder("elsewhere");
     cwd.createDirectory();
     const auto before = juce::File::getCurrentWorkingDirectory();
@@ -574,8 +568,7 @@ TEST(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
     before.setAsCurrentWorkingDirectory();
 }
 
-TEST(Window, ARecordingOfNothingSaysSo) {
-    TestFolder folder;
+TEST_F(Window, ARecordingOfNothingSaysSo) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     auto& model = window.model();
     const auto record = [&](bool isStruck) {
@@ -598,8 +591,7 @@ TEST(Window, ARecordingOfNothingSaysSo) {
     EXPECT_EQ(model.messages().shown().act.name, "Play");
 }
 
-TEST(Window, ShareLeadsWhereAPersonCanGo) {
-    TestFolder folder;
+TEST_F(Window, ShareLeadsWhereAPersonCanGo) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     window.share();
     ASSERT_NE(window.view().question(), nullptr);
@@ -672,8 +664,7 @@ TEST(Window, ShareLeadsWhereAPersonCanGo) {
     EXPECT_EQ(window.view().question()->value("Address of the page"), "https://example.org/page/") << "kept";
 }
 
-TEST(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing) {
-    TestFolder folder;
+TEST_F(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     MixerModel& model = window.model();
@@ -702,8 +693,7 @@ TEST(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing) {
     }
 }
 
-TEST(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
-    TestFolder folder;
+TEST_F(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     MixerModel& model = window.model();
@@ -793,8 +783,7 @@ TEST(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
     EXPECT_TRUE(model.mix().strips[0].isMuted) << "without a card it does";
 }
 
-TEST(Window, APressThatClosesAMenuDrawsNothing) {
-    TestFolder folder;
+TEST_F(Window, APressThatClosesAMenuDrawsNothing) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     auto& view = window.view().world().view();
@@ -818,8 +807,7 @@ TEST(Window, APressThatClosesAMenuDrawsNothing) {
     EXPECT_EQ(bodies(), before + 1) << "the next one does";
 }
 
-TEST(Window, EscClosesAMenuAndSilencesWhatSounds) {
-    TestFolder folder;
+TEST_F(Window, EscClosesAMenuAndSilencesWhatSounds) {
     FakeInterface hands;
     MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("menu.json"), folder("config")};
     Hand hand{window};
@@ -833,8 +821,7 @@ TEST(Window, EscClosesAMenuAndSilencesWhatSounds) {
     EXPECT_TRUE(window.model().isSilent()) << "it sounds";
 }
 
-TEST(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
-    TestFolder folder;
+TEST_F(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
     FakeInterface hands;
     MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("esc.json"), folder("config")};
     Hand hand{window};
@@ -862,8 +849,7 @@ TEST(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
     EXPECT_TRUE(model.isSilent()) << "where none is open";
 }
 
-TEST(Window, EscEndsADragAndAllIsAsBefore) {
-    TestFolder folder;
+TEST_F(Window, EscEndsADragAndAllIsAsBefore) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     auto& model = window.model();
@@ -914,8 +900,7 @@ TEST(Window, EscEndsADragAndAllIsAsBefore) {
     EXPECT_TRUE(model.isSilent()) << "where nothing is dragged";
 }
 
-TEST(Window, EscSilencesFromACardWhatGoesToAReceiverAlone) {
-    TestFolder folder;
+TEST_F(Window, EscSilencesFromACardWhatGoesToAReceiverAlone) {
     MixerWindow window{onlyNoDevice(), "None:no device", folder("esc.json"), folder("config")};
     OscChoice choice;
     choice.use = OscUse::thisComputer, choice.receiver = "127.0.0.1:9";
@@ -929,8 +914,7 @@ TEST(Window, EscSilencesFromACardWhatGoesToAReceiverAlone) {
     EXPECT_TRUE(window.model().isSilent());
 }
 
-TEST(Window, TheRightButtonOfTheMousePressesNoButton) {
-    TestFolder folder;
+TEST_F(Window, TheRightButtonOfTheMousePressesNoButton) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     for (const char* const title : {"Mute A", "Attach an actuator", "Solo B", "Record"}) {
@@ -950,8 +934,7 @@ TEST(Window, TheRightButtonOfTheMousePressesNoButton) {
     EXPECT_TRUE(window.model().mix().strips[1].isSolo) << "the left one does";
 }
 
-TEST(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
-    TestFolder folder;
+TEST_F(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
     const auto levels = [](const Mix& mix) {
         std::vector<double> all{mix.levelDb};
         for (const Strip& strip : mix.strips) all.push_back(strip.gainDb);
@@ -978,8 +961,7 @@ TEST(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
     EXPECT_EQ(levels(window.model().mix()), (std::vector{-32.0, 0.0, 0.0, 0.0, 0.0}));
 }
 
-TEST(Window, ARouteThatWasChosenIsKeptByTheNextSessions) {
-    TestFolder folder;
+TEST_F(Window, ARouteThatWasChosenIsKeptByTheNextSessions) {
     FakeInterface hands; // of eight outputs
     const auto routes = [](MixerWindow& window) {
         std::vector<int> all;
@@ -1012,8 +994,7 @@ TEST(Window, ARouteThatWasChosenIsKeptByTheNextSessions) {
     EXPECT_EQ(routes(window), (std::vector{5, 2, -1, -1})) << "no output that was not in use";
 }
 
-TEST(Window, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextStartsAreNoLower) {
-    TestFolder folder;
+TEST_F(Window, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextStartsAreNoLower) {
     FakeInterface hands; // of eight outputs
     const auto mine = folder("mine.json");
     {
@@ -1056,8 +1037,7 @@ TEST(Window, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextStart
     }
 }
 
-TEST(Window, HeadphonesAreKept) {
-    TestFolder folder;
+TEST_F(Window, HeadphonesAreKept) {
     FakeInterface hands; // of eight outputs
     {
         MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("ears.json"), folder("config")};
@@ -1079,8 +1059,7 @@ TEST(Window, HeadphonesAreKept) {
     EXPECT_EQ(asked.model().output().channelMap(), (std::vector{0, 1, 2, 3})) << "all of them";
 }
 
-TEST(Window, AfterHeadphonesOfTheFirstStartEveryActuatorHasAnOutput) {
-    TestFolder folder;
+TEST_F(Window, AfterHeadphonesOfTheFirstStartEveryActuatorHasAnOutput) {
     FakeInterface hands; // of eight outputs
     {
         MixerWindow window{fakeDrivers({&hands}), "None:no device", folder("a.json"), folder("config")};
@@ -1096,8 +1075,7 @@ TEST(Window, AfterHeadphonesOfTheFirstStartEveryActuatorHasAnOutput) {
     EXPECT_EQ(next.model().output().channelMap(), (std::vector{0, 1, 2, 3}));
 }
 
-TEST(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
-    TestFolder folder;
+TEST_F(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
     const auto file = folder("eight.json");
     EnchanterLayout eight = presetOf("phone4");
     for (; eight.count < 8; ++eight.count)
@@ -1114,8 +1092,7 @@ TEST(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
     EXPECT_EQ(window.model().mix().strips.size(), 4u);
 }
 
-TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
-    TestFolder folder;
+TEST_F(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     ASSERT_TRUE(writeKnock(folder("knock.wav")));
     MixerWindow window{onlyNoDevice(), "None:no device", folder("materials.json"), folder("config")};
     Hand hand{window};
@@ -1155,8 +1132,7 @@ TEST(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     EXPECT_EQ(again.model().mix().scene->materials[3].frequencyHz, concrete.frequencyHz);
 }
 
-TEST(Window, ABrokenSessionIsNamedAndNothingIsLost) {
-    TestFolder folder;
+TEST_F(Window, ABrokenSessionIsNamedAndNothingIsLost) {
     folder("broken.json").replaceWithText(R"({"physvib_session": 2, "seconds": -1})");
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     window.model().change("Law", [](Mix& mix) { mix.law = PanningLaw::energy; });
@@ -1169,8 +1145,7 @@ TEST(Window, ABrokenSessionIsNamedAndNothingIsLost) {
         << "the mixer plays on";
 }
 
-TEST(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
-    TestFolder folder;
+TEST_F(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
     Scene scene = *findBuiltInScene("drop");
     scene.name = "mine";
     folder("scene.json").replaceWithText(sceneJson(scene));
@@ -1218,8 +1193,7 @@ TEST(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
     EXPECT_EQ(window->document(), folder("session.json"));
 }
 
-TEST(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesNothing) {
-    TestFolder folder;
+TEST_F(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesNothing) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     auto& model = window.model();
     ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 500'000'000; }));
@@ -1245,8 +1219,7 @@ TEST(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesN
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "*cancelled*"), 0);
 }
 
-TEST(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
-    TestFolder folder;
+TEST_F(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     auto& model = window.model();
     const OnlyScript ffmpeg{
@@ -1320,7 +1293,7 @@ struct AfterACrash : TestFolder {
     }
 };
 
-TEST(Window, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
+TEST_F(Window, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
     AfterACrash crash;
     ASSERT_TRUE(crash.copy.existsAsFile());
     for (const bool isTakenUp : {false, true}) {
@@ -1345,8 +1318,7 @@ TEST(Window, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
     }
 }
 
-TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
-    TestFolder folder;
+TEST_F(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
     {
         MixerWindow window{onlyNoDevice(), "None:no device", folder("zoom.json"), folder("config")};
         window.setZoom(125);
@@ -1402,8 +1374,7 @@ TEST(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
     EXPECT_NEAR(juce::Desktop::getInstance().getGlobalScaleFactor(), 1.0f, 1e-4f);
 }
 
-TEST(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
-    TestFolder folder;
+TEST_F(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     window.model().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
     window.newDocument();
@@ -1431,8 +1402,7 @@ TEST(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
     EXPECT_TRUE(window.isChanged());
 }
 
-TEST(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
-    TestFolder folder;
+TEST_F(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
     MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     Hand hand{window};
     const auto menu = [] { return juce::Component::getCurrentlyModalComponent(); };
@@ -1470,8 +1440,7 @@ TEST(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
     EXPECT_EQ(window.model().session().world().slowness(), 1) << "without a card as well";
 }
 
-TEST(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
-    TestFolder folder;
+TEST_F(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
     const auto copies = [&] {
         return folder("config").findChildFiles(juce::File::findFiles, false, "recovery-*.json");
     };
@@ -1511,7 +1480,7 @@ struct LeftBehind : TestFolder {
     }
 };
 
-TEST(Window, OfSeveralCopiesEachIsShownAndWhatIsNotTakenUpOrDiscardedStays) {
+TEST_F(Window, OfSeveralCopiesEachIsShownAndWhatIsNotTakenUpOrDiscardedStays) {
     LeftBehind left{4};
     MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
     const auto words = [&] { return window.view().question()->words(); };
@@ -1537,7 +1506,7 @@ TEST(Window, OfSeveralCopiesEachIsShownAndWhatIsNotTakenUpOrDiscardedStays) {
     EXPECT_EQ(left.copies(), 3);
 }
 
-TEST(Window, ANewestCopyThatIsCutIsToldAndTheOlderOneIsOffered) {
+TEST_F(Window, ANewestCopyThatIsCutIsToldAndTheOlderOneIsOffered) {
     LeftBehind left{2};
     left.copy(0).replaceWithText(left.copy(0).loadFileAsString().dropLastCharacters(500));
     MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
@@ -1551,7 +1520,7 @@ TEST(Window, ANewestCopyThatIsCutIsToldAndTheOlderOneIsOffered) {
     EXPECT_EQ(left.copies(), 2);
 }
 
-TEST(Window, OnAFullDiskWhatWasTakenUpStaysUntilThereIsRoom) {
+TEST_F(Window, OnAFullDiskWhatWasTakenUpStaysUntilThereIsRoom) {
     LeftBehind left{1};
     {
         MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
@@ -1568,7 +1537,7 @@ TEST(Window, OnAFullDiskWhatWasTakenUpStaysUntilThereIsRoom) {
     EXPECT_EQ(left.copies(), 1);
 }
 
-TEST(Window, OfVeryManyCopiesTheNewestAreOfferedAndTheOthersStay) {
+TEST_F(Window, OfVeryManyCopiesTheNewestAreOfferedAndTheOthersStay) {
     LeftBehind left{1};
     for (int k = 1; k < 45; ++k) left.copy(0).copyFileTo(left.copy(k));
     MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
