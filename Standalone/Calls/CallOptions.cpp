@@ -8,7 +8,7 @@
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include "Lab/Study/Stimulus.h"
 #include "Live/Devices/AudioOutput.h"
 #include "Scene/World/Simulation.h"

@@ -4,8 +4,8 @@
 #pragma once
 #include "Io/Result.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Pads/DualSense.h"
 #include "Live/Pads/GamePads.h"
+#include "Live/Pads/PadReports.h"
 #include <chrono>
 #include <ostream>
 #include <string>

@@ -3,10 +3,7 @@
 #include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/DeviceThread.h"
 #include "Options/OptionTable.h"
-#include "Options/Parser.h"
-#include "Options/Reference.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"
 #include <algorithm>

@@ -8,9 +8,7 @@
 #include "Lab/Study/Stimulus.h"
 #include "Lab/Study/StudyRun.h"
 #include "Live/Session/SessionRender.h"
-#include "Live/Session/StimulusRender.h"
 #include "Options/OptionTable.h"
-#include "Options/Parser.h"
 #include "Scene/EventsCsv.h"
 #include <algorithm>
 #include <functional>

@@ -9,8 +9,6 @@
 #include "Core/HapticRenderer.h"
 #include "Core/PanningLaws.h"
 #include "Formats/ClipFile.h"
-#include "Formats/ClipSound.h"
-#include "Formats/HjifFile.h"
 #include "Formats/StrikeClip.h"
 #include "Io/Result.h"
 #include "Io/Text/QrCode.h"

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A call of `render` is a value: each of its options is in it, and the same words are the same value.
 #include "Calls/CallOptions.h"
-#include "Calls/RenderOptions.h"
-#include "Calls/StimulusOptions.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/Experiment.h"
 #include "Options/OptionTable.h"
-#include "Options/Parser.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 

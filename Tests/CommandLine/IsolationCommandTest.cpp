@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `physvib attenuation FOLDER` and `physvib coupling`: recordings whose answers are known.
 #include "Calls.h"
-#include "Lab/Files/CouplingFile.h"
 #include "Lab/Study/Coupling.h"
 #include "TestPlaces.h"
 #include <cmath>

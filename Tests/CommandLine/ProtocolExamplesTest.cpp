@@ -3,7 +3,7 @@
 // report with the times of a person's study.
 #include "Calls.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Report/ProtocolWords.h"
+#include "Lab/Report/ReportBuilder.h"
 #include <gtest/gtest.h>
 
 namespace physvib {

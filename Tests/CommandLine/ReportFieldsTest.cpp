@@ -4,7 +4,7 @@
 #include "Calls.h"
 #include "Io/Text/CsvTable.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "Lab/Report/BidsDataset.h"
+#include "Lab/Report/AnalysisScript.h"
 #include "System/Process.h"
 #include <algorithm>
 #include <gtest/gtest.h>

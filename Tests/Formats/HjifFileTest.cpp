@@ -2,9 +2,7 @@
 // MPEG's JSON: what was written is read again and sounds the same; what others write is read or refused.
 #include "ClipTesting.h"
 #include "Formats/Clip.h"
-#include "Formats/ClipEnvelope.h"
 #include "Formats/ClipFile.h"
-#include "Formats/ClipLimits.h"
 #include "Formats/EnvelopeFile.h"
 #include <cmath>
 #include <gtest/gtest.h>

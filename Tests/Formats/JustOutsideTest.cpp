@@ -2,12 +2,8 @@
 // Every number of a haptic file that has a limit, on both sides of it: inside it counts, and just outside it
 // is refused where it stands, or taken as the limit where a phone does so.
 #include "ClipTesting.h"
-#include "Formats/AhapFile.h"
 #include "Formats/Clip.h"
 #include "Formats/ClipFile.h"
-#include "Formats/ClipLimits.h"
-#include "Formats/HjifFile.h"
-#include "Formats/MetaHapticFile.h"
 #include "Formats/StrikeClip.h"
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -2,12 +2,10 @@
 // One rig from its beginning to its end: what it plays, keeps and says.
 #include "Live/Rig/Rig.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/NoDevice.h"
-#include "Live/Devices/SimulationDriver.h"
 #include "Live/Devices/SinkTable.h"
 #include "Live/Documents/SessionFile.h"
 #include "MessageLoop.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include "Session/FakeHost.h"
 #include "Support/FileTesting.h"
 #include <atomic>

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The last part of what the mixer played as a movie: whole, or not there at all.
 #include "Calls/MovieOutput.h"
-#include "Calls/SessionMovie.h"
 #include "Mixer/Model/MixerModel.h"
 #include "Mixer/Widgets/Cards.h"
 #include "Mixer/Window/PageLink.h"

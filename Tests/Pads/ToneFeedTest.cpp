@@ -2,7 +2,7 @@
 // Two tones for Switch controllers: known bytes, silence, stops and what a fit chooses. coils.py judges
 // energy and pitch over a minute.
 #include "Live/Pads/ToneFeed.h"
-#include "Live/Pads/DualSense.h"
+#include "Live/Pads/PadReports.h"
 #include <cmath>
 #include <gtest/gtest.h>
 

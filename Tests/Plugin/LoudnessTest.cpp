@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-<<<<<<< HEAD
 // Presets are as strong as each other at usual play, on any number of outputs. The measure: in 20 s (worlds
 // by themselves, notes of velocity 100 twice a second) at the initial level, the mean square in the band that
 // is felt, 20 to 400 Hz, of each 125 ms on the actuator where it is largest, over the eight strongest. Not
-// the peak: a click and a long note of one peak differ by 15 dB in what is felt.
+// the peak: a click and a long note of one peak differ by 15 dB in what is felt. None of their sounds is lost
+// on any width, and a window says which actuators are where a layout of one's own has more.
 #include "Host/Music/BeatDetector.h"
-=======
-// Presets on as many actuators as the host has outputs: none of their sounds is lost, and a window says which
-// actuators are where a layout of one's own has more.
-#include "Host/Music/BandPass.h"
->>>>>>> house-tests
 #include "MusicInput.h"
 #include "PluginEditor.h"
 #include "PluginTesting.h"
@@ -165,10 +160,10 @@ TEST(Width, TheWindowNamesTheActuatorsThatAreLostAndFoldsThem) {
     EXPECT_EQ(host.plugin.state().scene.name, "Keys");
 }
 
-// Presets are as strong as each other at usual play, on any number of outputs. The measure: in 20 s (worlds
-// by themselves, notes of velocity 100 twice a second) at the initial level, the mean square in the band that
-// is felt, 20 to 400 Hz, of each 125 ms on the actuator where it is largest, over the eight strongest. Not
-// the peak: a click and a long note of one peak differ by 15 dB in what is felt.
+// Presets are as strong as each other at usual play, on any number of outputs. The measure: in 20 s
+// (worlds by themselves, notes of velocity 100 twice a second) at the initial level, the mean square in
+// the band that is felt, 20 to 400 Hz, of each 125 ms on the actuator where it is largest, over the eight
+// strongest. Not the peak: a click and a long note of one peak differ by 15 dB in what is felt.
 
 using namespace test;
 
@@ -185,8 +180,8 @@ juce::MidiBuffer usualPlay(int index, const std::vector<int>& notes) {
     return midi;
 }
 
-/// Of 20 s: the mean square of each 125 ms in the band that is felt, on the actuator where it is largest; of
-/// the eight strongest windows (a second) the mean, in dB of full scale.
+/// Of 20 s: the mean square of each 125 ms in the band that is felt, on the actuator where it is largest;
+/// of the eight strongest windows (a second) the mean, in dB of full scale.
 double strengthOf(int program, int width) {
     PluginProcessor plugin{"PhysVib", {BusPlan::Kind::oneBus, width}};
     plugin.setNonRealtime(true);

@@ -4,7 +4,6 @@
 #include "DropScene.h"
 #include "Scene/PartNames.h"
 #include "Scene/SceneFile.h"
-#include "Scene/World/RunSettings.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <stdexcept>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Who asks for silence, and who lifts it.
 #include "Live/Documents/InputLine.h"
-#include "Live/Messages/ErrorRateLimit.h"
 #include "Live/Messages/MessageRouter.h"
-#include "Live/Session/Input.h"
 #include "Live/Session/OutputClock.h"
 #include "Live/Session/Scheduler.h"
 #include <gtest/gtest.h>

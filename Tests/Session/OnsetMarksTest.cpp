@@ -5,7 +5,7 @@
 #include "FakeHost.h"
 #include "Live/Session/OfflineRender.h"
 #include "Live/Session/Session.h"
-#include "Scene/World/RunSettings.h"
+#include "Scene/World/Simulation.h"
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <numbers>

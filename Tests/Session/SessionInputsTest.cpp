@@ -4,7 +4,6 @@
 #include "FakeHost.h"
 #include "Live/Documents/Mix.h"
 #include "Live/Documents/SessionFile.h"
-#include "Live/Documents/Strip.h"
 #include "Live/Session/Session.h"
 #include <cmath>
 #include <gtest/gtest.h>

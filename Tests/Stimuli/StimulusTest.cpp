@@ -2,7 +2,6 @@
 // Patterns and phantoms as the engine renders them: frames, enchanters, gains.
 #include "Stimuli/Stimulus.h"
 #include "Stimuli/PinkNoise.h"
-#include "Stimuli/PulsePattern.h"
 #include "Support/Rendering.h"
 #include <algorithm>
 #include <array>

@@ -4,7 +4,6 @@
 #include "Lab/Study/Coupling.h"
 #include "Core/PhantomPanner.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Lab/Files/CouplingFile.h"
 #include "Support/FileTesting.h"
 #include <cmath>
 #include <gtest/gtest.h>

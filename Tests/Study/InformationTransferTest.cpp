@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Exact values, and the estimates on simulated data whose truth is known.
 #include "Lab/Study/Identification.h"
-#include "Lab/Study/PercentCounts.h"
 #include "Stimuli/SeededRandom.h"
 #include <algorithm>
 #include <cmath>

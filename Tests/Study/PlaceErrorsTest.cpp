@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Constant and variable error of pointing at targets on no grid, against figures worked out by hand.
 #include "Lab/Files/StudyCsv.h"
-#include "Lab/Study/PercentCounts.h"
+#include "Lab/Study/Identification.h"
 #include "Lab/Study/Places.h"
 #include "Stimuli/SeededRandom.h"
 #include <algorithm>

@@ -5,7 +5,6 @@
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/Stimulus.h"
-#include "Lab/Study/StudyOrder.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyTasks.h"
 #include "TestPlaces.h"

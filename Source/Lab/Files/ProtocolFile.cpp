@@ -11,8 +11,6 @@
 #include "Lab/Files/ProtocolFields.h"
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/Protocol.h"
-#include "Scene/JsonReader.h"
-#include "Scene/JsonWriter.h"
 #include "Scene/SceneJson.h"
 #include "Scene/SceneRanges.h"
 #include <algorithm>

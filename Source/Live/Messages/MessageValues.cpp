@@ -9,7 +9,7 @@
 #include "Io/Text/NumberText.h"
 #include "Scene/EventColumns.h"
 #include "Scene/PartNames.h"
-#include "Stimuli/PulsePattern.h"
+#include "Stimuli/Stimulus.h"
 #include <algorithm>
 #include <cmath>
 

@@ -10,7 +10,6 @@
 #include "Live/Session/Sink.h"
 #include "Live/Session/Timeline.h"
 #include "Scene/SceneRun.h"
-#include "Scene/World/RunSettings.h"
 #include "Scene/World/Simulation.h"
 #include <algorithm>
 #include <atomic>

@@ -12,8 +12,6 @@
 #include "Live/Recordings/LoadRecordings.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Live/Rig/Rig.h"
-#include "System/ExitCode.h"
-#include "System/Interrupt.h"
 #include "System/Process.h"
 #include "System/StandardStreams.h"
 #include <algorithm>

@@ -4,9 +4,8 @@
 #pragma once
 #include "Calls/LoadedRender.h"
 #include "Host/Music/BeatDetector.h"
-#include "Host/Music/BeatStrikes.h"
 #include "Host/Osc/OscPort.h"
-#include "Live/Devices/Taps.h"
+#include "Live/Devices/DeviceMeters.h"
 #include "Live/Messages/MessageRouter.h"
 #include "Live/Rig/Rig.h"
 #include "Live/Session/Session.h"

@@ -10,7 +10,6 @@
 #include "Host/Osc/OscPort.h"
 #include "Io/Disk/FileClash.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Pads/DualSense.h"
 #include "Live/Pads/PadReports.h"
 #include "Options/OptionTable.h"
 #include "Scene/SceneEdits.h"

@@ -2,8 +2,7 @@
 // Opens the device, checks devices that may disappear and return, and heals mixer states in which two strips
 // have one output, as files may have them. Peak meters that fall, held peaks, and the decimated samples.
 #include "Mixer/Model/MixerDevice.h"
-#include "Live/Devices/NoDevice.h"
-#include "Live/Devices/PicoDevice.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Mixer/Model/MixerModel.h"
 #include <juce_audio_basics/juce_audio_basics.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls for the device, and its status text.
 #include "Mixer/Output/OutputTab.h"
-#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Mixer/Widgets/Cards.h"
 
 namespace physvib {

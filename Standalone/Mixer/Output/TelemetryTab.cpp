@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Formats counters of session and device; amber marks losses.
 #include "Core/Units.h"
-#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Mixer/Output/OutputTab.h"
 #include <numeric>
 

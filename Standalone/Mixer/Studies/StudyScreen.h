@@ -6,7 +6,7 @@
 #pragma once
 #include "Host/Views/WorldView.h"
 #include "Lab/Study/StudyRun.h"
-#include "Live/Devices/SimulationDriver.h"
+#include "Live/Rig/Rig.h"
 #include "Live/Session/SessionJournal.h"
 #include "Mixer/Studies/StudyParts.h"
 #include "Studies/StudyCalls.h"

@@ -3,7 +3,6 @@
 // actuators.
 #include "Mixer/Window/FirstStart.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/NoDevice.h"
 
 namespace physvib {
 namespace {

@@ -2,15 +2,12 @@
 // The mixer's window: document, settings, keys and menu.
 #include "Mixer/Window/MixerWindow.h"
 #include "Calls/MovieOutput.h"
-#include "Calls/SessionMovie.h"
 #include "Core/Limits.h"
 #include "Host/Views/WorldView.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/NoDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/PageLink.h"
-#include "Scene/FileKind.h"
 #include "Scene/SceneFile.h"
 #include "Scene/SceneValidation.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Controls and status text of the top bar.
-#include "Live/Devices/NoDevice.h"
+#include "Live/Devices/AudioDevice.h"
 #include "Mixer/Window/MixerView.h"
 #include "Scene/SceneFile.h"
 
