@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What sessions ask of the system: its rules for threads that drive devices and worlds, and for their process;
-// libraries at run time.
+// What sessions ask of the system: its rules for threads that drive devices and worlds, and for their
+// process; libraries at run time.
 #pragma once
 
 namespace physvib {
