@@ -209,12 +209,12 @@ TEST_F(LiveLines, ComplaintsOfACauseAreOneASecondAndTheRestIsCounted) {
 
 // Lines of `play --listen`, however they arrive.
 
-const std::string tooLong = "(too long)";
+const std::string markOfLong = "(too long)";
 
 std::vector<std::string> linesOf(const std::string& text, std::size_t atOnce) {
     std::vector<std::string> lines;
     const auto take = [&](std::string_view line, bool isWhole) {
-        lines.push_back(isWhole ? std::string{line} : tooLong + std::string{line});
+        lines.push_back(isWhole ? std::string{line} : markOfLong + std::string{line});
     };
     LineCutter cutter;
     for (std::size_t at = 0; at < text.size(); at += atOnce)
@@ -234,10 +234,10 @@ TEST(LineCutter, NothingOfALineThatIsTooLongIsTakenForAnother) {
     const std::string control = R"({"control": "silence", "on": true})";
     for (const std::size_t atOnce : {1000u, 4096u, 69'652u, 1'000'000u}) { // one of them cuts the word in two
         EXPECT_EQ(linesOf(std::string(69'632, 'x') + control + "\n" + control + "\n", atOnce),
-                  (std::vector<std::string>{tooLong + "silence", control}));
-        EXPECT_EQ(linesOf(control + std::string(69'632, 'x') + "\n", atOnce)[0], tooLong + "silence");
+                  (std::vector<std::string>{markOfLong + "silence", control}));
+        EXPECT_EQ(linesOf(control + std::string(69'632, 'x') + "\n", atOnce)[0], markOfLong + "silence");
         EXPECT_EQ(linesOf(control + "\n" + std::string(200'000, 'x'), atOnce),
-                  (std::vector<std::string>{control, tooLong}));
+                  (std::vector<std::string>{control, markOfLong}));
         EXPECT_EQ(linesOf(std::string(LineCutter::longest, 'x') + "\n", atOnce)[0].size(),
                   LineCutter::longest);
     }
