@@ -43,7 +43,7 @@ def error_of(path, voices):
         raw = file.read()
     start = raw.find(b"data") + 8 if raw[:4] == b"RIFF" else 0
     samples = array.array("f", raw[start:start + 4 * 4 * 2 * RATE // 16 * 16])
-    first = next(i for i, y in enumerate(samples) if y != 0.0) // CHANNELS - 1  # sin(0) is the frame before
+    first = next(i for i, y in enumerate(samples) if abs(y) > 1e-9) // CHANNELS - 1  # sin(0), or what rounding leaves of it, is the frame before
     worst, peak = 0.0, 0.0
     for n in range(0, RATE * 3 // 2, 7):
         t = n / RATE
