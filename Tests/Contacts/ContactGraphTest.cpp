@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Components and reach against a plain breadth-first search, as the thesis has it.
+// Components and reach against a plain breadth-first search, as the thesis has it; and whom what comes through
+// contacts reaches.
+#include "Contacts/CollisionCatcher.h"
 #include "Contacts/FixtureTable.h"
 #include <array>
+#include <cmath>
 #include <gtest/gtest.h>
 #include <random>
 #include <set>
@@ -127,6 +130,37 @@ TEST(ContactGraph, WallIsReachedButHandsNothingOn) {
     EXPECT_EQ(reached.size(), 2U);
     graph.setPassing(0, true); // the wall has become a movable body
     EXPECT_EQ(graph.component(1), graph.component(2));
+}
+
+/// Of two contacts that rest on a source one pushes more by the last binary digit of an impulse so small that
+/// its square is 0, the other by much.
+TEST(ChainLoads, ASourceReceivesOnceHoweverWeakItsFirstImpulseIs) {
+    constexpr float weak = 1.0e-16F;
+    FixtureTable table;
+    ContactGraph graph;
+    std::array<std::int32_t, 3> slots{};
+    for (std::size_t i = 0; i < slots.size(); ++i)
+        slots[i] = table.know(11 + i, {21 + i, 1.0, 1.0F, true, true});
+    table.set(slots[0], {.isCamera = true}, {});
+    ChainLoads loads{table, graph.pairs()};
+    std::vector<TouchingPairs::Name> contacts;
+    for (const std::int32_t other : {slots[1], slots[2]}) {
+        contacts.push_back({other, slots[0], graph.insert(other, slots[0])});
+        loads.begin(contacts.back());
+    }
+    const auto push = [&](float one, float other) {
+        loads.add(contacts[0], graph.pairs()[contacts[0].number].load, {one, 0.0F, 0.0F});
+        loads.add(contacts[1], graph.pairs()[contacts[1].number].load, {other, 0.0F, 0.0F});
+        loads.settle();
+    };
+    for (int step = 0; step < 4; ++step) {
+        push(weak, weak);
+        loads.endStep();
+    }
+    push(std::nextafter(weak, 1.0F), 1.0F);
+    EXPECT_EQ(loads.receivers(), std::vector{slots[0]});
+    EXPECT_EQ(loads.passed(slots[0]).strongest, 1.0F);
+    EXPECT_EQ(loads.passed(slots[0]).other, slots[2]);
 }
 
 } // namespace
