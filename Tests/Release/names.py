@@ -38,8 +38,8 @@ def options() -> Iterator[str]:
 def fields() -> Iterator[str]:
     for file in (file for house in ("Source", "Plugin", "Standalone") for file in sorted((root / house).rglob("*")) if file.suffix in (".h", ".cpp")):
         owner = file.stem
-        for structure, name in re.findall(r'FieldsOf<(?:\w+::)*(\w+)>|\bv\.\w+\("(\w+)"', file.read_text()):
-            owner = structure or owner
+        for structure, part, name in re.findall(r'FieldsOf<(?:\w+::)*(\w+)>|void visit(\w+)\(auto& v\)|\bv\.\w+\("(\w+)"', file.read_text()):
+            owner = structure or (part if f'FieldsOf<{part}>' in file.read_text() else '') or owner
             if name:
                 yield f"field {owner} {name}"
         for mark in re.findall(r'VersionField = "(\w+)"|checkVersion\(root, "(\w+)"', file.read_text()):

@@ -88,7 +88,7 @@ def main(build, count):
     peers = Peers(build, voices)
     ours = peers.program("ours")
     work = count * CHANNELS * RATE * 1e-9  # 10^9 mode-sample-channels in a second of sound
-    entries = [("PhysVib, whole chain", peers.program("chain"), 300), ("the same, each block in two tiles", peers.program("chain-across"), 300),
+    entries = [("PhysVib, whole chain", peers.program("chain"), 300), ("the same, across tiles", peers.program("chain-across"), 300),
                ("naive, double, -O3", peers.program("naive-O3"), 20),
                ("naive, float, -Ofast -march=native", peers.program("naive-Ofast"), 120),
                ("plain SIMD, float, -Ofast -march=native", peers.program("simd"), 300), ("Faust, float", peers.program("faust-float"), 120),
