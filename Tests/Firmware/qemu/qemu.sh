@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/../../.."
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-sources="Tests/Firmware/qemu/kernel.cpp Source/Core/BoardRenderer.cpp Source/Core/Modes/MovingLegs.cpp Source/Core/Modes/PhasorBank.cpp"
+sources="Tests/Firmware/qemu/kernel.cpp Source/Core/BoardRenderer.cpp Source/Core/Modes/MovingSegments.cpp Source/Core/Modes/PhasorBank.cpp"
 common="-std=c++20 -O2 -ffp-contract=off -ISource -Wno-register"
 # shellcheck disable=SC2086 # lists of words
 g++ $common $sources -o "$folder/here"
