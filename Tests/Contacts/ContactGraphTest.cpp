@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Components and reach against a plain breadth-first search, as the thesis has it; and whom what comes through
-// contacts reaches.
+// Components and reach against a plain breadth-first search, as the thesis has it; and whom what comes
+// through contacts reaches.
 #include "Contacts/CollisionCatcher.h"
 #include "Contacts/FixtureTable.h"
 #include <array>
