@@ -87,6 +87,7 @@ void CollisionFinder::addPlaces(std::size_t all) {
     free_.reserve(all);
     for (std::size_t at = all; at > known_.size(); --at) free_.push_back(static_cast<std::int32_t>(at - 1));
     known_.resize(all);
+    begun_ = nullptr; // it may have moved
 }
 
 void CollisionFinder::forgetContacts() noexcept {
@@ -94,7 +95,6 @@ void CollisionFinder::forgetContacts() noexcept {
     free_.clear();
     addPlaces(known_.capacity()); // nothing is allocated
     knownAt_.clear();
-    begun_ = nullptr;
 }
 
 std::int32_t CollisionFinder::know(const b2Fixture& fixture) {
