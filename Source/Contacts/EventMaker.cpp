@@ -14,10 +14,8 @@ double massOf(const KnownFixture& camera, const BodyReader& bodies) {
     return body.isDynamic ? body.massKg : camera.values.staticMassKg;
 }
 
-ImpactModel modelOf(const HapticFixture& camera, const ImpactModel& model) noexcept {
-    ImpactModel own = model;
-    own.handMassKg = camera.handMassKg.value_or(model.handMassKg);
-    return own;
+double handMassOf(const HapticFixture& camera, const ImpactModel& model) noexcept {
+    return camera.handMassKg.value_or(model.handMassKg);
 }
 
 } // namespace
@@ -25,7 +23,8 @@ ImpactModel modelOf(const HapticFixture& camera, const ImpactModel& model) noexc
 double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies,
                    const ImpactModel& model) {
     const KnownFixture& camera = table[impact.camera];
-    const ImpactModel own = modelOf(camera.values, model);
+    ImpactModel own = model;
+    own.handMassKg = handMassOf(camera.values, model);
     return camera.values.gain * own.amplitude(impact.newtonSeconds, massOf(camera, bodies));
 }
 
@@ -82,8 +81,8 @@ void EventMaker::setSource(std::int32_t camera) {
     event_.source.massKg = massOf(of, bodies_);
     const bool isScaled = model_.fullScaleNewtonSeconds > 0.0;
     perNewtonSecond_ = isScaled ? model_.driveGain : model_.driveGain * model_.normalisation;
-    amplitudeDivisor_ = isScaled ? model_.fullScaleNewtonSeconds
-                                 : event_.source.massKg + of.values.handMassKg.value_or(model_.handMassKg);
+    amplitudeDivisor_ =
+        isScaled ? model_.fullScaleNewtonSeconds : event_.source.massKg + handMassOf(of.values, model_);
     event_.source.part = of.values.part;
     if (settings_.location == ImpactLocation::fixture) place(bodies_.toWorld(of.body.body, of.centre));
 }
