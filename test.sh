@@ -14,13 +14,18 @@ esac
 # shellcheck disable=SC2086 # a list of words
 ensure_build_packages $physvib_test_packages
 
-# Engines and languages of others are tested at night, and here where they changed since the last night that passed. No label is called "none".
+# Engines and languages of others, and what runs the studies in R, are tested at night, and here where their files changed since the last night that passed.
+# No label is called "none".
 at_night=none not_made=
 if Tests/passed.sh engines; then
-    at_night=engines not_made='PHYSVIB_ENGINE_*'
+    at_night="$at_night|engines" not_made='PHYSVIB_ENGINE_*'
 else
     # shellcheck disable=SC2086 # a list of words
     ensure_packages $physvib_engine_packages
+fi
+if Tests/passed.sh laboratory; then
+    at_night="$at_night|laboratory"
+    say "laboratory: passed with these files (Tests/passed/laboratory.txt)"
 fi
 # What this Debian has no package of.
 not_had=

@@ -10,12 +10,12 @@ cd "$(dirname "$0")/.."
 bin=build/release/bin
 
 under() { build "$1" all && ctest --preset "$1" -j2 -LE 'live|display|checked' && ctest --preset "$1" -L display --repeat until-pass:2; }
-# engines: those of others, all of them; what passed is kept, and test.sh leaves them out until it changes.
-engines() {
+# of_label LABEL: all tests of it; what passed is kept, and test.sh leaves them out until it changes.
+of_label() {
     # shellcheck disable=SC2086 # a list of words
     ensure_packages $physvib_engine_packages && build release all &&
-        ctest --preset release -L engines --no-tests=error --output-junit "$PWD/build/tests-engines.xml" --test-output-size-passed 1000000 &&
-        Tests/House/skipped.py --quiet --at-night PHYSVIB_PICO_SDK build/release build/tests-engines.xml && Tests/passed.sh engines --keep
+        ctest --preset release -L "$1" --no-tests=error --output-junit "$PWD/build/tests-$1.xml" --test-output-size-passed 1000000 &&
+        Tests/House/skipped.py --quiet --at-night PHYSVIB_PICO_SDK build/release "build/tests-$1.xml" && Tests/passed.sh "$1" --keep
 }
 step() {
     case $1 in
@@ -32,7 +32,8 @@ step() {
         full-disk) Tests/CommandLine/full-disk.sh $bin ;;
         kinds) ensure_packages ffmpeg sox && Tests/Live/sounds.py $bin/physvib-sound-kinds --judges && Tests/Formats/texts.py $bin/physvib ;;
         skipped) ensure_packages openbox && Tests/Plugin/skipped.sh $bin ;;
-        engines) engines ;;
+        engines) of_label engines ;;
+        laboratory) of_label laboratory ;;
         box2d3) Tests/Engines/box2d3.sh build/release ;;
         farseer) ensure_packages git mono-mcs mono-runtime && Tests/Engines/farseer.sh build/release ;;
         pymunk) Tests/Api/pymunk.sh $PWD/build/release/lib/libphysvib.so.1 ;;
