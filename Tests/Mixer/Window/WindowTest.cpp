@@ -102,25 +102,46 @@ EnchanterLayout presetOf(std::string_view name) {
     return layout;
 }
 
-struct Window : testing::Test {
+constexpr const char* none = "None:no device";
+
+bool isPlayedTo(MixerModel& model, std::int64_t ns = 500'000'000) {
+    return runUntil([&] { return model.look().session.sessionNs > ns; });
+}
+
+/// The card for a file, when it is open; throws where none comes.
+FileCard& fileCard(MixerWindow& window) {
+    runUntil([&] { return dynamic_cast<FileCard*>(window.view().card()) != nullptr; });
+    return dynamic_cast<FileCard&>(*window.view().card());
+}
+
+/// For windows that have a folder of settings in common.
+struct Windows : testing::Test {
     TestFolder folder;
+    const juce::File config = folder("config");
+};
+
+/// A new session in a window without a device; references are to that session's.
+struct Window : Windows {
+    MixerWindow window{onlyNoDevice(), none, {}, config};
+    Hand hand{window};
+    MixerModel& model = window.model();
+    MixerView& view = window.view();
+    WorldView& world = view.world().view();
+    DrawPane& pane = view.world().drawing();
 };
 
 TEST_F(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindowsSize) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    Hand hand{window};
-    auto& view = window.view().world().view();
-    window.model().setSlowness(0);
-    window.model().setDisplayWidth(displayOf(view).getWidth() / 4000.0); // 40 pixels are 10 mm
-    window.model().dispatchPendingMessages();
+    model.setSlowness(0);
+    model.setDisplayWidth(displayOf(world).getWidth() / 4000.0); // 40 pixels are 10 mm
+    model.dispatchPendingMessages();
     std::size_t drags = 0;
     for (const auto& size :
          {juce::Point<int>{1440, 900}, {MixerView::minWidth, MixerView::minHeight}, {1200, 880}}) {
         window.setSize(size.x, size.y);
         runFor(0.2);
-        const auto ball = view.placeOfBody("large rubber ball");
-        hand.drag(hand.placeOf(view, ball), hand.placeOf(view, ball + juce::Point<float>{32.0f, -24.0f}));
-        const auto& pulls = window.model().saved().log.takes.back().inputs;
+        const auto ball = world.placeOfBody("large rubber ball");
+        hand.drag(hand.placeOf(world, ball), hand.placeOf(world, ball + juce::Point<float>{32.0f, -24.0f}));
+        const auto& pulls = model.saved().log.takes.back().inputs;
         ASSERT_EQ(pulls.size(), ++drags);
         const auto push = std::get<ImpulseAction>(pulls.back().action).newtonSeconds;
         EXPECT_NEAR(push.x, 256.0, 0.01) << size.x; // pixels are floats
@@ -128,11 +149,11 @@ TEST_F(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindo
     }
 }
 
-TEST_F(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
+TEST_F(Windows, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
     FakeInterface speakers;
     speakers.outputs = 2;
     {
-        MixerWindow window{fakeDrivers({&speakers}), "Fake:hands", folder("hands.json"), folder("config")};
+        MixerWindow window{fakeDrivers({&speakers}), "Fake:hands", folder("hands.json"), config};
         EXPECT_TRUE(window.model().device().choice().monitor.empty());
         ASSERT_TRUE(runUntil([&] {
             if (window.model().trouble().contains("no output")) window.model().report({}); // it waits behind
@@ -142,7 +163,7 @@ TEST_F(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
         window.save(); // or the next one would ask for it
         runFor(0.7);   // the settings are written twice a second
     }
-    MixerWindow again{fakeDrivers({&speakers}), "", {}, folder("config")};
+    MixerWindow again{fakeDrivers({&speakers}), "", {}, config};
     EXPECT_EQ(again.model().device().choice().monitor, (std::vector{0, 1}));
     EXPECT_EQ(again.model().device().choice().monitorDb, -30.0);
     EXPECT_EQ(again.model().device().listening().settings().contacts, (std::vector{0, 1}))
@@ -152,21 +173,18 @@ TEST_F(Window, TheMonitorIsOfferedOnceOnTwoOutputsAndKept) {
 }
 
 TEST_F(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    Hand hand{window};
-    auto& view = window.view().world().view();
-    ASSERT_TRUE(runUntil([&] { return window.model().look().session.sessionNs > 500'000'000; }));
-    window.model().setSlowness(0);
+    ASSERT_TRUE(isPlayedTo(model));
+    model.setSlowness(0);
     runFor(0.3);
-    const auto ball = view.placeOfBody("large rubber ball");
-    ASSERT_TRUE(view.getLocalBounds().toFloat().contains(ball));
+    const auto ball = world.placeOfBody("large rubber ball");
+    ASSERT_TRUE(world.getLocalBounds().toFloat().contains(ball));
     const auto to = ball + juce::Point<float>{-80.0f, 30.0f};
-    hand.drag(hand.placeOf(view, ball + juce::Point<float>{5.0f, 0.0f}), hand.placeOf(view, to),
+    hand.drag(hand.placeOf(world, ball + juce::Point<float>{5.0f, 0.0f}), hand.placeOf(world, to),
               juce::ModifierKeys::shiftModifier);
-    const auto inputs = window.model().saved().log.takes.back().inputs;
+    const auto inputs = model.saved().log.takes.back().inputs;
     ASSERT_GE(inputs.size(), 3u);
-    const Scene& scene = window.model().world().scene();
-    const auto left = view.placeOfShare({0.0, 0.0}), right = view.placeOfShare({1.0, 1.0});
+    const Scene& scene = model.world().scene();
+    const auto left = world.placeOfShare({0.0, 0.0}), right = world.placeOfShare({1.0, 1.0});
     for (std::size_t i = 0; i + 1 < inputs.size(); ++i) {
         const auto& grip = std::get<GripAction>(inputs[i].action);
         EXPECT_EQ(grip.body, "large rubber ball");
@@ -183,19 +201,19 @@ TEST_F(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
     EXPECT_NEAR(last.toMetres->y,
                 static_cast<double>((left.y - to.y) / (left.y - right.y)) * scene.fieldHeightMetres, 0.01);
     EXPECT_FALSE(std::get<GripAction>(inputs.back().action).toMetres.has_value()) << "let go";
-    EXPECT_FALSE(view.isHolding());
-    EXPECT_TRUE(window.model().trouble().isEmpty()) << window.model().trouble();
+    EXPECT_FALSE(world.isHolding());
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
 }
 
-TEST_F(Window, APersonsWayThroughTheMixer) {
+TEST_F(Windows, APersonsWayThroughTheMixer) {
     juce::File wav;
     std::int64_t from = 0, playOut = 0;
     {
-        MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
+        MixerWindow window{onlyNoDevice(), none, folder("hands.json"), config};
         ASSERT_NE(window.getPeer(), nullptr);
         Hand hand{window};
         auto& view = window.view().world().view();
-        ASSERT_TRUE(runUntil([&] { return window.model().look().session.sessionNs > 500'000'000; }));
+        ASSERT_TRUE(isPlayedTo(window.model()));
         window.model().setSlowness(0); // a ball that lies still is easier to grasp
         runFor(0.3);
         const auto ball = view.placeOfBody("large rubber ball");
@@ -252,14 +270,14 @@ TEST_F(Window, APersonsWayThroughTheMixer) {
         hand.key('s', juce::ModifierKeys::commandModifier);
         EXPECT_FALSE(window.isChanged());
     }
-    const auto saved = loadSession(folder("hands.json").getFullPathName().toStdString());
+    const auto saved = loadSession(pathOf(folder("hands.json")));
     ASSERT_TRUE(saved) << saved.error;
     const auto recorded = samplesOf(wav);
     ASSERT_EQ(recorded.getNumChannels(), 5);
     EXPECT_EQ(recorded.getMagnitude(1, 0, recorded.getNumSamples()), 0.0f) << "B was muted";
     EXPECT_GT(recorded.getMagnitude(0, recorded.getNumSamples()), 0.0f);
     EXPECT_LE(recorded.getMagnitude(0, 0, recorded.getNumSamples()), ceilingOf(saved.value.mix->strips[0]));
-    const auto events = loadEventsCsv(wav.withFileExtension("csv").getFullPathName().toStdString());
+    const auto events = loadEventsCsv(pathOf(wav.withFileExtension("csv")));
     ASSERT_TRUE(events) << events.error;
     EXPECT_FALSE(events.value.events.empty());
 
@@ -283,7 +301,7 @@ TEST_F(Window, APersonsWayThroughTheMixer) {
                   });
     EXPECT_EQ(wrong, 0) << "samples that are not as they were felt";
 
-    MixerWindow again{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
+    MixerWindow again{onlyNoDevice(), none, folder("hands.json"), config};
     EXPECT_EQ(again.model().mix().count(), 5);
     EXPECT_TRUE(again.model().mix().strips[1].isMuted);
     EXPECT_TRUE(again.model().trouble().isEmpty()) << again.model().trouble();
@@ -291,11 +309,6 @@ TEST_F(Window, APersonsWayThroughTheMixer) {
 }
 
 TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
-    MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
-    Hand hand{window};
-    auto& view = window.view().world().view();
-    auto& pane = window.view().world().drawing();
-    auto& model = window.model();
     model.setSlowness(0);
     model.change("Materials", [](Mix& mix) {
         Scene scene = *mix.scene;
@@ -307,7 +320,7 @@ TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     EXPECT_EQ(model.mix().scene->materials, MixerModel::firstMix().scene->materials)
         << "not of the scene before";
     runFor(0.5);
-    const auto at = [&](double x, double y) { return hand.placeOf(view, view.placeOfShare({x, y})); };
+    const auto at = [&](double x, double y) { return hand.placeOf(world, world.placeOfShare({x, y})); };
     const auto draw = [&](DrawTool tool, juce::Point<float> from, juce::Point<float> to) {
         pane.use(tool);
         hand.drag(from, to);
@@ -330,7 +343,7 @@ TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     const auto& materials = drawn.drawn().materials;
     ASSERT_GT(materials.back().frequencyHz, 0.0) << "a haptic source has to sound";
     ASSERT_NE(drawn.find("polygon 1")->fixtures[0].material, std::ssize(materials) - 1);
-    hand.click(*find(window.view(), "Material " + utf8(materials.back().name)));
+    hand.click(*find(view, "Material " + utf8(materials.back().name)));
     EXPECT_EQ(drawn.find("polygon 1")->fixtures[0].material, std::ssize(materials) - 1) << model.trouble();
     runFor(1.0); // its sound is over
 
@@ -339,12 +352,12 @@ TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     ASSERT_TRUE(model.recording().isRunning());
     hand.key('r', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier);
     ASSERT_TRUE(runUntil([&] { return model.script().seconds() > 0.3; }));
-    const auto plank = view.placeOfBody("box 1");
-    hand.drag(hand.placeOf(view, plank + juce::Point<float>{40.0f, 0.0f}),
-              hand.placeOf(view, plank + juce::Point<float>{40.0f, -60.0f}));
+    const auto plank = world.placeOfBody("box 1");
+    hand.drag(hand.placeOf(world, plank + juce::Point<float>{40.0f, 0.0f}),
+              hand.placeOf(world, plank + juce::Point<float>{40.0f, -60.0f}));
     for (int k = 0; k < 4; ++k) hand.key(juce::KeyPress::leftKey);
-    const auto ball = view.placeOfBody("ball 1");
-    hand.drag(hand.placeOf(view, ball), hand.placeOf(view, ball + juce::Point<float>{50.0f, -30.0f}),
+    const auto ball = world.placeOfBody("ball 1");
+    hand.drag(hand.placeOf(world, ball), hand.placeOf(world, ball + juce::Point<float>{50.0f, -30.0f}),
               juce::ModifierKeys::shiftModifier);
     ASSERT_TRUE(runUntil([&] { return model.script().seconds() > 3.0; }));
     const std::size_t take = model.saved().log.takes.size() - 1;
@@ -356,12 +369,11 @@ TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     ASSERT_TRUE(runUntil([&] { return window.lastRecording() != juce::File{}; }));
     ASSERT_EQ(window.saveSceneTo(folder("own.json"), false), "");
 
-    const auto scene = loadScene(folder("own.json").getFullPathName().toStdString());
+    const auto scene = loadScene(pathOf(folder("own.json")));
     ASSERT_TRUE(scene) << scene.error;
     const auto rendered =
         runScene(scene.value, {model.mix().seed, 100}, static_cast<std::int64_t>(1e9 * length)).events;
-    const auto live =
-        loadEventsCsv(window.lastRecording().withFileExtension("csv").getFullPathName().toStdString());
+    const auto live = loadEventsCsv(pathOf(window.lastRecording().withFileExtension("csv")));
     ASSERT_TRUE(live) << live.error;
     EXPECT_GT(rendered.size(), 2U);
     const auto& recorded = live.value.events;
@@ -388,7 +400,7 @@ juce::File loudSession(const TestFolder& folder) {
         mix.strips[3].output = 5;
     });
     const auto file = folder("theirs.json");
-    EXPECT_EQ(writeFile(file.getFullPathName().toStdString(), sessionJson(model.saved())), "");
+    EXPECT_EQ(writeFile(pathOf(file), sessionJson(model.saved())), "");
     return file;
 }
 
@@ -401,10 +413,10 @@ void expectLowered(const Mix& mix) {
     EXPECT_EQ(mix.strips[3].output, -1);
 }
 
-TEST_F(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
+TEST_F(Windows, AStrangersSessionIsNoLouderThanTheDeskWas) {
     const auto theirs = loudSession(folder);
     {
-        MixerWindow window{onlyNoDevice(), "None:no device", folder("mine.json"), folder("config")};
+        MixerWindow window{onlyNoDevice(), none, folder("mine.json"), config};
         window.model().change("mine", [](Mix& mix) {
             mix.levelDb = -30.0;
             mix.strips[0].ceilingDb = -18.0;
@@ -422,22 +434,22 @@ TEST_F(Window, AStrangersSessionIsNoLouderThanTheDeskWas) {
             << told;
         EXPECT_TRUE(told.contains("D without output 6")) << told;
     }
-    MixerWindow again{onlyNoDevice(), "None:no device", theirs, folder("config")};
+    MixerWindow again{onlyNoDevice(), none, theirs, config};
     expectLowered(again.model().mix());
     again.newDocument();
     EXPECT_EQ(again.model().mix().strips[3].output, 3) << "what a file took is the user's still";
     EXPECT_EQ(again.model().mix().levelDb, -30.0);
 }
 
-TEST_F(Window, ASessionOfOnesOwnComesBackAsItWasSavedUnlessItWasChangedSince) {
+TEST_F(Windows, ASessionOfOnesOwnComesBackAsItWasSavedUnlessItWasChangedSince) {
     const auto mine = folder("mine.json");
     const auto save = [&](const char* name, double levelDb, int output) {
-        MixerWindow window{onlyNoDevice(), "None:no device", folder(name), folder("config")};
+        MixerWindow window{onlyNoDevice(), none, folder(name), config};
         window.model().change("own", [&](Mix& mix) { mix.levelDb = levelDb, mix.strips[3].output = output; });
         window.save();
     };
     const auto opened = [&] {
-        MixerWindow window{onlyNoDevice(), "None:no device", mine, folder("config")};
+        MixerWindow window{onlyNoDevice(), none, mine, config};
         return std::pair{window.model().mix().levelDb, window.model().mix().strips[3].output};
     };
     save("mine.json", -3.0, 5);
@@ -448,9 +460,9 @@ TEST_F(Window, ASessionOfOnesOwnComesBackAsItWasSavedUnlessItWasChangedSince) {
     EXPECT_EQ(opened(), (std::pair{-40.0, -1}));
 }
 
-TEST_F(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
+TEST_F(Windows, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     const auto next = [&](double leftDb, double asksDb, bool isSilent) {
-        MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+        MixerWindow window{onlyNoDevice(), none, {}, config};
         EXPECT_EQ(window.model().mix().levelDb, asksDb) << "after " << leftDb;
         EXPECT_EQ(window.model().isSilent(), isSilent);
         EXPECT_EQ(window.model().output().isSilent(), isSilent);
@@ -460,7 +472,7 @@ TEST_F(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
         return window.model().mix().strips;
     };
     const auto leave = [&](double db, bool isSilent) {
-        MixerWindow window{onlyNoDevice(), "None:no device", folder("left.json"), folder("config")};
+        MixerWindow window{onlyNoDevice(), none, folder("left.json"), config};
         window.model().change("Left", [&](Mix& mix) {
             mix.levelDb = db;
             mix.strips[1].gainDb = -20.0;
@@ -480,10 +492,10 @@ TEST_F(Window, NoStartIsLouderThanTheMixerWasLeftAndSilenceStays) {
     next(-6.0, MixerModel::firstMix().levelDb, false);
 }
 
-TEST_F(Window, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
+TEST_F(Windows, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
     for (const char* answer : {"Do not save", "Save"}) {
         TestFolder own; // a card asks for what the first leaves behind
-        MixerWindow window{onlyNoDevice(), "None:no device", own("hands.json"), own("config")};
+        MixerWindow window{onlyNoDevice(), none, own("hands.json"), own("config")};
         Hand hand{window};
         auto& view = window.view().world().view();
         window.model().setSlowness(0);
@@ -517,17 +529,17 @@ TEST_F(Window, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
     }
 }
 
-TEST_F(Window, ASessionSavedPausedOpensPaused) {
+TEST_F(Windows, ASessionSavedPausedOpensPaused) {
     for (const int slowness : {0, 8, 1}) {
         {
-            MixerWindow window{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
+            MixerWindow window{onlyNoDevice(), none, folder("hands.json"), config};
             window.model().setSlowness(1);
-            ASSERT_TRUE(runUntil([&] { return window.model().look().session.sessionNs > 500'000'000; }));
+            ASSERT_TRUE(isPlayedTo(window.model()));
             window.model().setSlowness(slowness);
             runFor(0.5);
             window.save();
         }
-        MixerWindow again{onlyNoDevice(), "None:no device", folder("hands.json"), folder("config")};
+        MixerWindow again{onlyNoDevice(), none, folder("hands.json"), config};
         EXPECT_EQ(again.model().session().world().slowness(), slowness == 0 ? 0 : 1) << slowness;
         const auto begun = again.model().session().world().sceneNs();
         runFor(0.3);
@@ -535,14 +547,14 @@ TEST_F(Window, ASessionSavedPausedOpensPaused) {
     }
 }
 
-TEST_F(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
+TEST_F(Windows, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
     const auto cwd = folder("elsewhere");
     cwd.createDirectory();
     const auto before = juce::File::getCurrentWorkingDirectory();
     cwd.setAsCurrentWorkingDirectory();
     juce::StringArray names;
     for (int k = 0; k < 2; ++k) {
-        MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+        MixerWindow window{onlyNoDevice(), none, {}, config};
         window.record();
         ASSERT_TRUE(window.model().recording().isRunning()) << window.model().trouble();
         window.model().strikes().testPulse(0);
@@ -569,8 +581,6 @@ TEST_F(Window, ARecordingGoesToTheUsersFolderIsShownAndOverwritesNothing) {
 }
 
 TEST_F(Window, ARecordingOfNothingSaysSo) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    auto& model = window.model();
     const auto record = [&](bool isStruck) {
         const auto last = window.lastRecording();
         window.record();
@@ -582,8 +592,8 @@ TEST_F(Window, ARecordingOfNothingSaysSo) {
     };
     model.setSlowness(0);
     ASSERT_TRUE(runUntil([&] {
-        window.view().refresh();
-        return std::ranges::all_of(window.view().latest().holds, [](float h) { return h == 0.0f; });
+        view.refresh();
+        return std::ranges::all_of(view.latest().holds, [](float h) { return h == 0.0f; });
     }));
     EXPECT_TRUE(record(false).startsWith("Nothing was played")) << model.trouble();
     EXPECT_EQ(model.messages().shown().act.name, "Show");
@@ -592,10 +602,9 @@ TEST_F(Window, ARecordingOfNothingSaysSo) {
 }
 
 TEST_F(Window, ShareLeadsWhereAPersonCanGo) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     window.share();
-    ASSERT_NE(window.view().question(), nullptr);
-    auto& files = *window.view().question();
+    ASSERT_NE(view.question(), nullptr);
+    auto& files = *view.question();
     EXPECT_EQ(files.getWidth(), QuestionCard::wide) << "no hole for a code";
     if (PageServer::isThere())
         EXPECT_TRUE(dynamic_cast<juce::Button&>(*find(files, "Serve it here")).getToggleState());
@@ -605,20 +614,19 @@ TEST_F(Window, ShareLeadsWhereAPersonCanGo) {
         EXPECT_TRUE(dynamic_cast<juce::Button&>(*find(files, words + dots())).isEnabled()) << words;
     files.answer("Save as scene" + dots());
     FileCard* saving = nullptr;
-    ASSERT_TRUE(
-        runUntil([&] { return (saving = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
-    EXPECT_FALSE(saving->folder().isAChildOf(folder("config"))) << "nobody looks there";
+    ASSERT_TRUE(runUntil([&] { return (saving = dynamic_cast<FileCard*>(view.card())) != nullptr; }));
+    EXPECT_FALSE(saving->folder().isAChildOf(config)) << "nobody looks there";
     EXPECT_FALSE(saving->folder().getFullPathName().contains("/."));
     saving->setName("for a friend");
     saving->accept();
-    ASSERT_TRUE(runUntil([&] { return window.model().trouble().contains("for a friend.json"); }));
+    ASSERT_TRUE(runUntil([&] { return model.trouble().contains("for a friend.json"); }));
     window.share();
-    window.view().question()->answer("Other page" + dots());
+    view.question()->answer("Other page" + dots());
     ASSERT_TRUE(runUntil([&] {
-        auto* next = window.view().question();
+        auto* next = view.question();
         return next != nullptr && find(*next, "Address of the page") != nullptr;
     }));
-    auto* card = window.view().question();
+    auto* card = view.question();
     runFor(0.1);
     const auto said = [](juce::Component& in) {
         juce::String all;
@@ -658,16 +666,13 @@ TEST_F(Window, ShareLeadsWhereAPersonCanGo) {
     EXPECT_TRUE(button("Copy the link").isEnabled() && button("Copy the link").getToggleState());
     EXPECT_EQ(places(), first) << "nothing moves while one types";
     EXPECT_TRUE(card->keyPressed(juce::KeyPress{juce::KeyPress::returnKey}));
-    ASSERT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
-    EXPECT_TRUE(window.model().trouble().startsWith("Copied a link of ")) << window.model().trouble();
+    ASSERT_TRUE(runUntil([&] { return view.question() == nullptr; }));
+    EXPECT_TRUE(model.trouble().startsWith("Copied a link of ")) << model.trouble();
     window.share();
-    EXPECT_EQ(window.view().question()->value("Address of the page"), "https://example.org/page/") << "kept";
+    EXPECT_EQ(view.question()->value("Address of the page"), "https://example.org/page/") << "kept";
 }
 
 TEST_F(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    Hand hand{window};
-    MixerModel& model = window.model();
     model.setSlowness(0);
     model.change("Levels", [](Mix& mix) { mix.strips[1].gainDb = mix.levelDb = -20.0; });
     model.dispatchPendingMessages();
@@ -675,7 +680,7 @@ TEST_F(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing)
         return fader == "Master gain" ? model.mix().levelDb : model.mix().strips[1].gainDb;
     };
     for (const juce::String title : {"Master gain", "Gain of B"}) {
-        auto& fader = dynamic_cast<juce::Slider&>(*find(window.view(), title));
+        auto& fader = dynamic_cast<juce::Slider&>(*find(view, title));
         const float middle = 0.5f * static_cast<float>(fader.getWidth());
         const auto high = static_cast<float>(fader.getHeight());
         const auto edits = model.edits();
@@ -694,10 +699,6 @@ TEST_F(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing)
 }
 
 TEST_F(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    Hand hand{window};
-    MixerModel& model = window.model();
-    auto& view = window.view();
     ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 200'000'000; }));
     model.setSlowness(0);
     const auto bodies = model.world().drawing().drawn().bodies.size();
@@ -784,32 +785,29 @@ TEST_F(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
 }
 
 TEST_F(Window, APressThatClosesAMenuDrawsNothing) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    Hand hand{window};
-    auto& view = window.view().world().view();
-    window.model().setSlowness(0);
+    model.setSlowness(0);
     window.newScene(SceneGround::floor);
     runFor(0.5);
-    window.view().world().drawing().use(DrawTool::ball);
-    const auto bodies = [&] { return window.model().world().drawing().drawn().bodies.size(); };
+    pane.use(DrawTool::ball);
+    const auto bodies = [&] { return model.world().drawing().drawn().bodies.size(); };
     const auto before = bodies();
-    const auto place = view.placeOfShare({0.5, 0.5});
+    const auto place = world.placeOfShare({0.5, 0.5});
     for (const char* title : {"Menu", "Scene"}) {
-        hand.click(*find(window.view(), title));
+        hand.click(*find(view, title));
         ASSERT_TRUE(runUntil([] { return juce::Component::getCurrentlyModalComponent() != nullptr; }))
             << title;
-        hand.click(view, place);
+        hand.click(world, place);
         EXPECT_EQ(juce::Component::getCurrentlyModalComponent(), nullptr) << title;
         EXPECT_EQ(bodies(), before) << title;
         runFor(0.3);
     }
-    hand.click(view, place);
+    hand.click(world, place);
     EXPECT_EQ(bodies(), before + 1) << "the next one does";
 }
 
-TEST_F(Window, EscClosesAMenuAndSilencesWhatSounds) {
+TEST_F(Windows, EscClosesAMenuAndSilencesWhatSounds) {
     FakeInterface hands;
-    MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("menu.json"), folder("config")};
+    MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("menu.json"), config};
     Hand hand{window};
     window.model().strikes().testPulse(0);
     for (int k = 0; k < 100; ++k) hands.play(64);
@@ -821,9 +819,9 @@ TEST_F(Window, EscClosesAMenuAndSilencesWhatSounds) {
     EXPECT_TRUE(window.model().isSilent()) << "it sounds";
 }
 
-TEST_F(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
+TEST_F(Windows, EscClosesACardAndSilencesOnlyWhatSounds) {
     FakeInterface hands;
-    MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("esc.json"), folder("config")};
+    MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("esc.json"), config};
     Hand hand{window};
     auto& view = window.view();
     auto& model = window.model();
@@ -850,42 +848,37 @@ TEST_F(Window, EscClosesACardAndSilencesOnlyWhatSounds) {
 }
 
 TEST_F(Window, EscEndsADragAndAllIsAsBefore) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    Hand hand{window};
-    auto& model = window.model();
-    auto& view = window.view().world().view();
-    auto& pane = window.view().world().drawing();
-    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 500'000'000; }));
+    ASSERT_TRUE(isPlayedTo(model));
     model.setSlowness(0);
     runFor(0.3);
     const auto before = model.mix();
     const auto edits = model.edits();
     const auto escapeDuring = [&](juce::Point<float> from, int keys = 0) {
         const int pressed = juce::ModifierKeys::leftButtonModifier | keys;
-        const auto at = hand.placeOf(view, from), to = at + juce::Point<float>{70.0f, 40.0f};
+        const auto at = hand.placeOf(world, from), to = at + juce::Point<float>{70.0f, 40.0f};
         hand.move(at, keys);
         hand.move(at, pressed);
         for (int k = 1; k <= 5; ++k) hand.move(at + (to - at) * (0.2f * static_cast<float>(k)), pressed);
-        EXPECT_TRUE(window.view().world().isDragging());
+        EXPECT_TRUE(view.world().isDragging());
         hand.key(juce::KeyPress::escapeKey);
-        EXPECT_FALSE(window.view().world().isDragging());
+        EXPECT_FALSE(view.world().isDragging());
         hand.move(to + juce::Point<float>{9.0f, 9.0f}, pressed);
         hand.release(to);
         EXPECT_FALSE(model.isSilent()) << "nothing sounded";
     };
-    const auto ball = view.placeOfBody("large rubber ball");
+    const auto ball = world.placeOfBody("large rubber ball");
     escapeDuring(ball);
     EXPECT_EQ(model.edits(), edits) << "thrown";
     escapeDuring(ball, juce::ModifierKeys::shiftModifier);
-    EXPECT_FALSE(view.isHolding());
+    EXPECT_FALSE(world.isHolding());
     EXPECT_FALSE(std::get<GripAction>(model.saved().log.takes.back().inputs.back().action).toMetres)
         << "held";
-    escapeDuring(view.placeOfEnchanter(0));
+    escapeDuring(world.placeOfEnchanter(0));
     EXPECT_EQ(layoutJson(model.mix().layout), layoutJson(before.layout)) << "moved";
     const auto bodies = model.world().drawing().drawn().bodies.size();
     for (const DrawTool tool : {DrawTool::ball, DrawTool::line, DrawTool::polygon}) {
         pane.use(tool);
-        escapeDuring(view.placeOfShare({0.3, 0.7}));
+        escapeDuring(world.placeOfShare({0.3, 0.7}));
         EXPECT_EQ(model.world().drawing().drawn().bodies.size(), bodies) << static_cast<int>(tool);
     }
     pane.use(DrawTool::choose);
@@ -901,24 +894,21 @@ TEST_F(Window, EscEndsADragAndAllIsAsBefore) {
 }
 
 TEST_F(Window, EscSilencesFromACardWhatGoesToAReceiverAlone) {
-    MixerWindow window{onlyNoDevice(), "None:no device", folder("esc.json"), folder("config")};
     OscChoice choice;
     choice.use = OscUse::thisComputer, choice.receiver = "127.0.0.1:9";
-    EXPECT_EQ(window.model().inputs().use(choice), "");
-    window.model().strikes().testPulse(0);
+    EXPECT_EQ(model.inputs().use(choice), "");
+    model.strikes().testPulse(0);
     runFor(0.3);
     window.saveAs();
     runFor(0.1);
-    Hand{window}.key(juce::KeyPress::escapeKey);
-    EXPECT_TRUE(runUntil([&] { return window.view().openCard() == nullptr; }));
-    EXPECT_TRUE(window.model().isSilent());
+    hand.key(juce::KeyPress::escapeKey);
+    EXPECT_TRUE(runUntil([&] { return view.openCard() == nullptr; }));
+    EXPECT_TRUE(model.isSilent());
 }
 
 TEST_F(Window, TheRightButtonOfTheMousePressesNoButton) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    Hand hand{window};
     for (const char* const title : {"Mute A", "Attach an actuator", "Solo B", "Record"}) {
-        auto* const button = find(window.view(), title);
+        auto* const button = find(view, title);
         ASSERT_NE(button, nullptr) << title;
         const auto at = hand.middleOf(*button);
         for (const int buttons : {0, static_cast<int>(juce::ModifierKeys::rightButtonModifier)})
@@ -926,22 +916,22 @@ TEST_F(Window, TheRightButtonOfTheMousePressesNoButton) {
         hand.move(at + juce::Point<float>{1.0f, 0.0f}, juce::ModifierKeys::rightButtonModifier);
         hand.release(at);
     }
-    EXPECT_EQ(window.model().mix().count(), 4);
-    EXPECT_FALSE(window.model().mix().strips[0].isMuted);
-    EXPECT_FALSE(window.model().mix().strips[1].isSolo);
-    EXPECT_FALSE(window.model().recording().isRunning());
-    hand.click(*find(window.view(), "Solo B"));
-    EXPECT_TRUE(window.model().mix().strips[1].isSolo) << "the left one does";
+    EXPECT_EQ(model.mix().count(), 4);
+    EXPECT_FALSE(model.mix().strips[0].isMuted);
+    EXPECT_FALSE(model.mix().strips[1].isSolo);
+    EXPECT_FALSE(model.recording().isRunning());
+    hand.click(*find(view, "Solo B"));
+    EXPECT_TRUE(model.mix().strips[1].isSolo) << "the left one does";
 }
 
-TEST_F(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
+TEST_F(Windows, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft) {
     const auto levels = [](const Mix& mix) {
         std::vector<double> all{mix.levelDb};
         for (const Strip& strip : mix.strips) all.push_back(strip.gainDb);
         return all;
     };
     const auto leave = [&](auto change) {
-        MixerWindow window{onlyNoDevice(), "None:no device", folder("left.json"), folder("config")};
+        MixerWindow window{onlyNoDevice(), none, folder("left.json"), config};
         window.model().change("Left", change);
         window.save();
         runFor(0.7); // the settings are written twice a second
@@ -951,17 +941,17 @@ TEST_F(Window, ANewSessionHasTheDefaultLevelsAndIsNoLouderThanTheLoudestWasLeft)
         mix.strips[2].gainDb = -27.7;
     });
     {
-        MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+        MixerWindow window{onlyNoDevice(), none, {}, config};
         EXPECT_EQ(levels(window.model().mix()), (std::vector{-12.0, 0.0, 0.0, 0.0, 0.0}));
     }
     leave([](Mix& mix) {
         for (Strip& strip : mix.strips) strip.gainDb = -20.0;
     });
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    MixerWindow window{onlyNoDevice(), none, {}, config};
     EXPECT_EQ(levels(window.model().mix()), (std::vector{-32.0, 0.0, 0.0, 0.0, 0.0}));
 }
 
-TEST_F(Window, ARouteThatWasChosenIsKeptByTheNextSessions) {
+TEST_F(Windows, ARouteThatWasChosenIsKeptByTheNextSessions) {
     FakeInterface hands; // of eight outputs
     const auto routes = [](MixerWindow& window) {
         std::vector<int> all;
@@ -969,20 +959,20 @@ TEST_F(Window, ARouteThatWasChosenIsKeptByTheNextSessions) {
         return all;
     };
     {
-        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("left.json"), folder("config")};
+        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("left.json"), config};
         window.model().change("Output", [](Mix& mix) { giveOutput(mix.strips, 0, 5); });
         window.save();
         runFor(0.7); // the settings are written twice a second
         window.newDocument();
         EXPECT_EQ(routes(window), (std::vector{5, 1, 2, 3})) << "new";
     }
-    for (const char* device : {"", "None:no device", "Fake:hands"}) {
-        MixerWindow window{fakeDrivers({&hands}), device, {}, folder("config")};
+    for (const char* device : {"", none, "Fake:hands"}) {
+        MixerWindow window{fakeDrivers({&hands}), device, {}, config};
         EXPECT_EQ(routes(window), (std::vector{5, 1, 2, 3})) << device;
         runFor(0.7);
     }
     {
-        MixerWindow window{fakeDrivers({&hands}), "", folder("left.json"), folder("config")};
+        MixerWindow window{fakeDrivers({&hands}), "", folder("left.json"), config};
         window.model().change("Preset", [](Mix& mix) {
             mix.layout = presetLayout("phone2");
             mix.resizeStrips();
@@ -990,15 +980,15 @@ TEST_F(Window, ARouteThatWasChosenIsKeptByTheNextSessions) {
         });
         window.save();
     }
-    MixerWindow window{fakeDrivers({&hands}), "", {}, folder("config")};
+    MixerWindow window{fakeDrivers({&hands}), "", {}, config};
     EXPECT_EQ(routes(window), (std::vector{5, 2, -1, -1})) << "no output that was not in use";
 }
 
-TEST_F(Window, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextStartsAreNoLower) {
+TEST_F(Windows, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextStartsAreNoLower) {
     FakeInterface hands; // of eight outputs
     const auto mine = folder("mine.json");
     {
-        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", mine, folder("config")};
+        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", mine, config};
         window.model().change("Mine", [](Mix& mix) {
             giveOutput(mix.strips, 0, 5);
             mix.strips[1].gainDb = -19.5;
@@ -1010,14 +1000,14 @@ TEST_F(Window, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextSta
     }
     const auto theirs = folder("theirs.json");
     {
-        auto session = loadSession(mine.getFullPathName().toStdString());
+        auto session = loadSession(pathOf(mine));
         ASSERT_TRUE(session) << session.error;
         for (std::size_t j = 0; j < 4; ++j)
             session.value.mix->strips[j].output = j == 0 ? 5 : static_cast<int>(j);
-        ASSERT_EQ(writeFile(theirs.getFullPathName().toStdString(), sessionJson(session.value)), "");
+        ASSERT_EQ(writeFile(pathOf(theirs), sessionJson(session.value)), "");
     }
     {
-        MixerWindow window{fakeDrivers({&hands}), "", theirs, folder("config")};
+        MixerWindow window{fakeDrivers({&hands}), "", theirs, config};
         const auto& strips = window.model().mix().strips;
         ASSERT_EQ(strips.size(), 4u);
         EXPECT_EQ(strips[0].output, 0);
@@ -1030,23 +1020,23 @@ TEST_F(Window, OnHeadphonesASessionForOtherOutputsIsHeardOnBothEarsAndTheNextSta
         runFor(0.7);
     }
     for (int start = 0; start < 3; ++start) {
-        MixerWindow window{fakeDrivers({&hands}), "", {}, folder("config")};
+        MixerWindow window{fakeDrivers({&hands}), "", {}, config};
         EXPECT_EQ(window.model().mix().levelDb, safeContactDb) << start;
         EXPECT_EQ(window.model().output().channelMap(), (std::vector{0, 1})) << start;
         runFor(0.7);
     }
 }
 
-TEST_F(Window, HeadphonesAreKept) {
+TEST_F(Windows, HeadphonesAreKept) {
     FakeInterface hands; // of eight outputs
     {
-        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("ears.json"), folder("config")};
+        MixerWindow window{fakeDrivers({&hands}), "Fake:hands", folder("ears.json"), config};
         ASSERT_EQ(useHeadphones(window.model(), window.model().device().choice()), "");
         window.save();
         runFor(0.7);
     }
     {
-        MixerWindow again{fakeDrivers({&hands}), "", {}, folder("config")};
+        MixerWindow again{fakeDrivers({&hands}), "", {}, config};
         EXPECT_TRUE(again.model().device().choice().isHeadphones);
         EXPECT_EQ(again.model().output().channelMap(), (std::vector{0, 1})) << "two actuators";
         EXPECT_EQ(again.model().mix().levelDb, safeContactDb);
@@ -1054,15 +1044,15 @@ TEST_F(Window, HeadphonesAreKept) {
         EXPECT_EQ(actuators.beforeEars, (std::vector{0, 1, 2, 3})) << "of the session before";
         runFor(0.7);
     }
-    MixerWindow asked{fakeDrivers({&hands}), "Fake:hands", {}, folder("config")};
+    MixerWindow asked{fakeDrivers({&hands}), "Fake:hands", {}, config};
     EXPECT_FALSE(asked.model().device().choice().isHeadphones) << "a device that is asked for has actuators";
     EXPECT_EQ(asked.model().output().channelMap(), (std::vector{0, 1, 2, 3})) << "all of them";
 }
 
-TEST_F(Window, AfterHeadphonesOfTheFirstStartEveryActuatorHasAnOutput) {
+TEST_F(Windows, AfterHeadphonesOfTheFirstStartEveryActuatorHasAnOutput) {
     FakeInterface hands; // of eight outputs
     {
-        MixerWindow window{fakeDrivers({&hands}), "None:no device", folder("a.json"), folder("config")};
+        MixerWindow window{fakeDrivers({&hands}), none, folder("a.json"), config};
         auto& model = window.model();
         FirstStart card{model, {{"Headphones: Fake:hands", {"Fake:hands"}, 8, false, true}}};
         card.keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
@@ -1071,18 +1061,17 @@ TEST_F(Window, AfterHeadphonesOfTheFirstStartEveryActuatorHasAnOutput) {
         window.save();
         runFor(0.7);
     }
-    MixerWindow next{fakeDrivers({&hands}), "", {}, folder("config")};
+    MixerWindow next{fakeDrivers({&hands}), "", {}, config};
     EXPECT_EQ(next.model().output().channelMap(), (std::vector{0, 1, 2, 3}));
 }
 
-TEST_F(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
+TEST_F(Windows, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
     const auto file = folder("eight.json");
     EnchanterLayout eight = presetOf("phone4");
     for (; eight.count < 8; ++eight.count)
         eight.places[static_cast<std::size_t>(eight.count)] = {0.01 * eight.count, 0.01};
-    ASSERT_EQ(writeFile(file.getFullPathName().toStdString(), layoutJson(describeLayout("eight", eight))),
-              "");
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    ASSERT_EQ(writeFile(pathOf(file), layoutJson(describeLayout("eight", eight))), "");
+    MixerWindow window{onlyNoDevice(), none, {}, config};
     window.openFile(file);
     const auto& strips = window.model().mix().strips;
     ASSERT_EQ(strips.size(), 8u);
@@ -1092,9 +1081,9 @@ TEST_F(Window, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
     EXPECT_EQ(window.model().mix().strips.size(), 4u);
 }
 
-TEST_F(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
+TEST_F(Windows, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     ASSERT_TRUE(writeKnock(folder("knock.wav")));
-    MixerWindow window{onlyNoDevice(), "None:no device", folder("materials.json"), folder("config")};
+    MixerWindow window{onlyNoDevice(), none, folder("materials.json"), config};
     Hand hand{window};
     hand.click(*find(window.view().tabs(), "Materials"));
     auto& tab = *window.view().tabs().find<MaterialsTab>();
@@ -1128,16 +1117,16 @@ TEST_F(Window, ARecordingIsDroppedOnTheMaterialsAndFeltWhereOneClicks) {
     hand.key('z', juce::ModifierKeys::commandModifier | juce::ModifierKeys::shiftModifier);
 
     hand.key('s', juce::ModifierKeys::commandModifier);
-    MixerWindow again{onlyNoDevice(), "None:no device", folder("materials.json"), folder("config")};
+    MixerWindow again{onlyNoDevice(), none, folder("materials.json"), config};
     EXPECT_EQ(again.model().mix().scene->materials[3].frequencyHz, concrete.frequencyHz);
 }
 
-TEST_F(Window, ABrokenSessionIsNamedAndNothingIsLost) {
+TEST_F(Windows, ABrokenSessionIsNamedAndNothingIsLost) {
     folder("broken.json").replaceWithText(R"({"physvib_session": 2, "seconds": -1})");
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
+    MixerWindow window{onlyNoDevice(), none, {}, config};
     window.model().change("Law", [](Mix& mix) { mix.law = PanningLaw::energy; });
     window.model().undoManager().undo();
-    MixerWindow broken{onlyNoDevice(), "None:no device", folder("broken.json"), folder("config")};
+    MixerWindow broken{onlyNoDevice(), none, folder("broken.json"), config};
     EXPECT_TRUE(broken.model().trouble().contains("broken.json: seconds: expected a number from 0 to "))
         << broken.model().trouble();
     EXPECT_EQ(broken.document(), juce::File{}) << "saving would replace the broken file";
@@ -1145,15 +1134,14 @@ TEST_F(Window, ABrokenSessionIsNamedAndNothingIsLost) {
         << "the mixer plays on";
 }
 
-TEST_F(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
+TEST_F(Windows, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
     Scene scene = *findBuiltInScene("drop");
     scene.name = "mine";
     folder("scene.json").replaceWithText(sceneJson(scene));
     folder("layout.json").replaceWithText(layoutJson(describeLayout("three", presetOf("ring3"))));
     folder("other.json").replaceWithText("{}");
     const auto start = [&](const char* name) {
-        return std::make_unique<MixerWindow>(onlyNoDevice(), "None:no device", folder(name),
-                                             folder("config"));
+        return std::make_unique<MixerWindow>(onlyNoDevice(), none, folder(name), config);
     };
     auto window = start("scene.json");
     EXPECT_EQ(window->model().mix().scene->name, "mine");
@@ -1194,9 +1182,7 @@ TEST_F(Window, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
 }
 
 TEST_F(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeavesNothing) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    auto& model = window.model();
-    ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 500'000'000; }));
+    ASSERT_TRUE(isPlayedTo(model));
     const auto before = model.look().session.sessionNs;
     window.renderTo(folder("long.wav"), 20.0);
     ASSERT_TRUE(runUntil([&] { return model.isNews() && model.trouble().contains("long.wav"); }, 60.0))
@@ -1207,7 +1193,7 @@ TEST_F(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeave
     EXPECT_GT(samples.getMagnitude(18 * 48000, 2 * 48000), 0.0f) << "the box is shaken on";
 
     window.renderTo(folder("cancelled.wav"), 86'400.0);
-    auto* cancel = dynamic_cast<juce::Button*>(find(window.view(), "Cancel the making of the file"));
+    auto* cancel = dynamic_cast<juce::Button*>(find(view, "Cancel the making of the file"));
     ASSERT_NE(cancel, nullptr);
     EXPECT_EQ(juce::Component::getCurrentlyModalComponent(), nullptr) << "the mixer can be used meanwhile";
     runFor(0.3);
@@ -1215,13 +1201,11 @@ TEST_F(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeave
     EXPECT_TRUE(model.trouble().contains("cancelled.wav")) << "one at a time: " << model.trouble();
     cancel->onClick();
     EXPECT_TRUE(runUntil([&] { return model.trouble().contains("nothing was written"); })) << model.trouble();
-    EXPECT_EQ(find(window.view(), "Progress"), nullptr);
+    EXPECT_EQ(find(view, "Progress"), nullptr);
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "*cancelled*"), 0);
 }
 
 TEST_F(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    auto& model = window.model();
     const OnlyScript ffmpeg{
         folder, "ffmpeg", // the pictures become the movie
         "for word; do case $before in -i) [ \"$first\" ] || first=$word;; esac; before=$word; "
@@ -1229,17 +1213,17 @@ TEST_F(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
     ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 2'500'000'000; }));
     const auto ask = [&](const char* seconds) {
         window.saveMovie();
-        EXPECT_GE(window.view().question()->value("Seconds").getDoubleValue(), 2.5) << "all of it";
-        window.view().question()->setValue("Seconds", seconds);
-        window.view().question()->answer("Choose a file" + dots());
+        EXPECT_GE(view.question()->value("Seconds").getDoubleValue(), 2.5) << "all of it";
+        view.question()->setValue("Seconds", seconds);
+        view.question()->answer("Choose a file" + dots());
     };
     ask("601");
     ASSERT_TRUE(runUntil([&] { return model.trouble().contains("expected 1 to 600"); })) << model.trouble();
-    EXPECT_EQ(window.view().card(), nullptr);
+    EXPECT_EQ(view.card(), nullptr);
     model.report({}); // news wait behind trouble
     ask("1.0");
     FileCard* card = nullptr;
-    ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
+    ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(view.card())) != nullptr; }));
     card->enter(folder.folder);
     card->setName("short");
     card->accept();
@@ -1263,7 +1247,7 @@ TEST_F(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
     }
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "full*"), 0);
     EXPECT_TRUE(movie.existsAsFile());
-    EXPECT_EQ(find(window.view(), "Progress"), nullptr);
+    EXPECT_EQ(find(view, "Progress"), nullptr);
     EXPECT_TRUE(runUntil([&] { return model.look().session.sessionNs > before + 500'000'000; }));
 }
 
@@ -1293,13 +1277,13 @@ struct AfterACrash : TestFolder {
     }
 };
 
-TEST_F(Window, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
+TEST_F(Windows, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
     AfterACrash crash;
     ASSERT_TRUE(crash.copy.existsAsFile());
     for (const bool isTakenUp : {false, true}) {
         TestFolder again;
         crash.folder.getChildFile("after").copyDirectoryTo(again("config"));
-        MixerWindow window{onlyNoDevice(), "None:no device", {}, again("config")};
+        MixerWindow window{onlyNoDevice(), none, {}, again("config")};
         auto* question = window.view().question();
         ASSERT_NE(question, nullptr);
         EXPECT_EQ(window.view().firstStart(), nullptr) << "one question at a time";
@@ -1318,9 +1302,9 @@ TEST_F(Window, AfterACrashItAsksInTheWindowAndLevelAndExposureStay) {
     }
 }
 
-TEST_F(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
+TEST_F(Windows, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
     {
-        MixerWindow window{onlyNoDevice(), "None:no device", folder("zoom.json"), folder("config")};
+        MixerWindow window{onlyNoDevice(), none, folder("zoom.json"), config};
         window.setZoom(125);
         EXPECT_NEAR(juce::Desktop::getInstance().getGlobalScaleFactor(), 1.25f, 1e-4f);
         EXPECT_GE(window.view().getWidth(), MixerView::minWidth);
@@ -1367,7 +1351,7 @@ TEST_F(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
         EXPECT_EQ(window.view().world().getBounds(), window.view().getLocalBounds());
         window.setShow(false);
     }
-    MixerWindow again{onlyNoDevice(), "None:no device", folder("zoom.json"), folder("config")};
+    MixerWindow again{onlyNoDevice(), none, folder("zoom.json"), config};
     EXPECT_EQ(again.zoom(), 125);
     EXPECT_EQ(again.view().dividers(), (Dividers{0.5, 0.4, 0.6}));
     again.setZoom(0);
@@ -1375,7 +1359,6 @@ TEST_F(Window, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) {
 }
 
 TEST_F(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
     window.model().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
     window.newDocument();
     ASSERT_NE(window.view().question(), nullptr);
@@ -1403,11 +1386,9 @@ TEST_F(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
 }
 
 TEST_F(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, folder("config")};
-    Hand hand{window};
     const auto menu = [] { return juce::Component::getCurrentlyModalComponent(); };
     const auto choose = [&](int menuFromTheEnd, int fromTheEnd) {
-        hand.click(*find(window.view(), "Menu"));
+        hand.click(*find(view, "Menu"));
         ASSERT_TRUE(runUntil([&] { return menu() != nullptr; }));
         menu()->getPeer()->toFront(true); // as a press on an item does: the window loses the keys
         runFor(0.3);
@@ -1424,28 +1405,28 @@ TEST_F(Window, ACardOfTheMenuHasTheKeysAndTheWorldHasThemAfterIt) {
         runFor(0.3);
     };
     choose(2, 1); // View: Width of the display
-    ASSERT_NE(window.view().card(), nullptr);
-    EXPECT_TRUE(window.view().card()->hasKeyboardFocus(true)) << "though the menu gives them back late";
+    ASSERT_NE(view.card(), nullptr);
+    EXPECT_TRUE(view.card()->hasKeyboardFocus(true)) << "though the menu gives them back late";
     hand.key(juce::KeyPress::returnKey);
-    ASSERT_TRUE(runUntil([&] { return window.view().card() == nullptr; })) << "Return answers";
+    ASSERT_TRUE(runUntil([&] { return view.card() == nullptr; })) << "Return answers";
     runFor(0.3);
     EXPECT_EQ(menu(), nullptr);
     hand.key(juce::KeyPress::spaceKey);
     EXPECT_EQ(menu(), nullptr);
-    EXPECT_EQ(window.model().session().world().slowness(), 0) << "Space is the world's";
+    EXPECT_EQ(model.session().world().slowness(), 0) << "Space is the world's";
     choose(1, 0); // Help: First steps
-    EXPECT_TRUE(window.model().trouble().contains("Drag a ball"));
+    EXPECT_TRUE(model.trouble().contains("Drag a ball"));
     hand.key(juce::KeyPress::spaceKey);
     EXPECT_EQ(menu(), nullptr);
-    EXPECT_EQ(window.model().session().world().slowness(), 1) << "without a card as well";
+    EXPECT_EQ(model.session().world().slowness(), 1) << "without a card as well";
 }
 
-TEST_F(Window, ACopyIsKeptUntilTheWindowIsClosedWell) {
+TEST_F(Windows, ACopyIsKeptUntilTheWindowIsClosedWell) {
     const auto copies = [&] {
-        return folder("config").findChildFiles(juce::File::findFiles, false, "recovery-*.json");
+        return config.findChildFiles(juce::File::findFiles, false, "recovery-*.json");
     };
     {
-        MixerWindow window{onlyNoDevice(), "None:no device", folder("kept.json"), folder("config")};
+        MixerWindow window{onlyNoDevice(), none, folder("kept.json"), config};
         window.model().change("Level", [](Mix& mix) { mix.levelDb = -18.0; });
         ASSERT_TRUE(runUntil([&] { return !copies().isEmpty(); }));
         const auto copy = loadSession(copies()[0].getFullPathName().toStdString());
@@ -1480,9 +1461,9 @@ struct LeftBehind : TestFolder {
     }
 };
 
-TEST_F(Window, OfSeveralCopiesEachIsShownAndWhatIsNotTakenUpOrDiscardedStays) {
+TEST_F(Windows, OfSeveralCopiesEachIsShownAndWhatIsNotTakenUpOrDiscardedStays) {
     LeftBehind left{4};
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
+    MixerWindow window{onlyNoDevice(), none, {}, left.folder.getChildFile("config")};
     const auto words = [&] { return window.view().question()->words(); };
     const auto answer = [&](const char* with, auto isDone) {
         window.view().question()->answer(with);
@@ -1506,10 +1487,10 @@ TEST_F(Window, OfSeveralCopiesEachIsShownAndWhatIsNotTakenUpOrDiscardedStays) {
     EXPECT_EQ(left.copies(), 3);
 }
 
-TEST_F(Window, ANewestCopyThatIsCutIsToldAndTheOlderOneIsOffered) {
+TEST_F(Windows, ANewestCopyThatIsCutIsToldAndTheOlderOneIsOffered) {
     LeftBehind left{2};
     left.copy(0).replaceWithText(left.copy(0).loadFileAsString().dropLastCharacters(500));
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
+    MixerWindow window{onlyNoDevice(), none, {}, left.folder.getChildFile("config")};
     EXPECT_TRUE(window.model().trouble().contains("recovery-90000000.json: ")) << window.model().trouble();
     EXPECT_FALSE(window.model().trouble().containsChar('\n'));
     auto* question = window.view().question();
@@ -1520,27 +1501,27 @@ TEST_F(Window, ANewestCopyThatIsCutIsToldAndTheOlderOneIsOffered) {
     EXPECT_EQ(left.copies(), 2);
 }
 
-TEST_F(Window, OnAFullDiskWhatWasTakenUpStaysUntilThereIsRoom) {
+TEST_F(Windows, OnAFullDiskWhatWasTakenUpStaysUntilThereIsRoom) {
     LeftBehind left{1};
     {
-        MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
+        MixerWindow window{onlyNoDevice(), none, {}, left.folder.getChildFile("config")};
         const FileSizeLimit full{4000};
         window.view().question()->answer("Take it up");
         ASSERT_TRUE(runUntil([&] { return window.view().question() == nullptr; }));
         EXPECT_TRUE(window.model().trouble().contains("cannot be written")) << window.model().trouble();
         EXPECT_TRUE(left.copy(0).existsAsFile());
     }
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
+    MixerWindow window{onlyNoDevice(), none, {}, left.folder.getChildFile("config")};
     ASSERT_NE(window.view().question(), nullptr) << "offered again";
     window.view().question()->answer("Take it up");
     EXPECT_TRUE(runUntil([&] { return !left.copy(0).existsAsFile(); }));
     EXPECT_EQ(left.copies(), 1);
 }
 
-TEST_F(Window, OfVeryManyCopiesTheNewestAreOfferedAndTheOthersStay) {
+TEST_F(Windows, OfVeryManyCopiesTheNewestAreOfferedAndTheOthersStay) {
     LeftBehind left{1};
     for (int k = 1; k < 45; ++k) left.copy(0).copyFileTo(left.copy(k));
-    MixerWindow window{onlyNoDevice(), "None:no device", {}, left.folder.getChildFile("config")};
+    MixerWindow window{onlyNoDevice(), none, {}, left.folder.getChildFile("config")};
     auto* question = window.view().question();
     ASSERT_NE(question, nullptr);
     EXPECT_TRUE(question->words().contains("Copy 1 of 20") &&
