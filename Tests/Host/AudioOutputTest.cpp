@@ -32,12 +32,6 @@ SessionSetup eightHands() {
     return s;
 }
 
-float loudest(const std::vector<float>& samples) {
-    float most = 0;
-    for (const float x : samples) most = std::max(most, std::abs(x));
-    return most;
-}
-
 /// A session on fake interfaces, its driver, and its log. The interface's thread is the test's.
 struct Rig {
     explicit Rig(const SessionSetup& wanted = eightHands())
@@ -49,17 +43,10 @@ struct Rig {
     }
 
     /// Blocks of `frames`, `seconds` long; what came out, per connected output.
-    std::vector<std::vector<float>> play(double seconds, int frames) {
-        std::vector<std::vector<float>> all;
-        for (int left = static_cast<int>(seconds * interface.rate); left > 0; left -= frames) {
-            session.advance();
-            const auto block = interface.play(frames);
-            all.resize(block.size());
-            for (std::size_t k = 0; k < block.size(); ++k)
-                all[k].insert(all[k].end(), block[k].begin(), block[k].end());
-            for (const auto& e : drain(session)) log.push_back(e);
-        }
-        return all;
+    Signals play(double seconds, int frames) {
+        const int blocks = (static_cast<int>(seconds * interface.rate) + frames - 1) / frames;
+        return playBlocks(session, interface, blocks, frames,
+                          [this](const CollisionEvent& e) { log.push_back(e); });
     }
     void expectTheLogIsWhole() {
         ASSERT_GT(log.size(), 10u);
@@ -76,6 +63,13 @@ struct Rig {
     AudioOutput output{session, fakeDrivers({&speakers, &interface}), &interrupt};
     std::vector<CollisionEvent> log;
     SessionLog made;
+};
+
+struct OpenRig : Rig {
+    explicit OpenRig(float level = 1.0f, const SessionSetup& wanted = eightHands())
+        : Rig{wanted} {
+        EXPECT_EQ(open({}, level), "");
+    }
 };
 
 TEST(AudioOutput, OpensTheDeviceThatIsNamedAndNoOther) {
@@ -116,7 +110,7 @@ TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt)
     const auto before = rig.session.timeline().framesRendered();
     ASSERT_TRUE(rig.output.playInstead(&lent));
     alone.prepare(48000, 64);
-    std::vector<std::vector<float>> wanted(static_cast<std::size_t>(setup.channels), std::vector<float>(64));
+    Signals wanted(static_cast<std::size_t>(setup.channels), std::vector<float>(64));
     std::vector<float*> at;
     for (auto& channel : wanted) at.push_back(channel.data());
     float most = 0.0f;
@@ -128,8 +122,8 @@ TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt)
         for (std::size_t j = 0; j < wanted.size(); ++j)
             ASSERT_EQ(played[j], wanted[j]) << "block " << block << ", channel " << j;
         for (std::size_t j = wanted.size(); j < played.size(); ++j)
-            ASSERT_EQ(loudest(played[j]), 0.0f) << "of the one that is lent there is none";
-        for (const auto& channel : played) most = std::max(most, loudest(channel));
+            ASSERT_EQ(peakOf(played[j]), 0.0f) << "of the one that is lent there is none";
+        most = std::max(most, peakOf(played));
     }
     EXPECT_GT(most, 0.01f);
     EXPECT_EQ(rig.session.timeline().framesRendered(), before) << "it stands still";
@@ -140,8 +134,7 @@ TEST(AudioOutput, ALentSessionIsPlayedFromItsBeginningAndTheOwnOneGoesOnAfterIt)
 }
 
 TEST(AudioOutput, SumsUpWhatLeavesForTheHands) {
-    Rig rig;
-    ASSERT_EQ(rig.open({}, 0.5f), "");
+    OpenRig rig{0.5f};
     rig.play(0.1, 64);
     const auto before = rig.output.exposure().weighted;
     rig.play(2.0, 64);
@@ -188,7 +181,7 @@ TEST(AudioOutput, AConverterGetsWhatActuatorsGetUntilItHasEnough) {
     EXPECT_EQ(rig.output.open({.device = "hands", .level = 0.5f, .converter = &kept}), "");
     const auto felt = rig.play(3.0, 64)[2];
     EXPECT_TRUE(std::equal(kept.third.begin(), kept.third.end(), felt.begin()));
-    EXPECT_GT(loudest(felt), 0.01f);
+    EXPECT_GT(peakOf(felt), 0.01f);
 }
 
 TEST(AudioOutput, AnotherDriverWithADeviceOfThatNameIsAnotherDevice) {
@@ -211,12 +204,9 @@ TEST(AudioOutput, WhatRingsFadesBeforeADeviceIsClosedAndOneThatIsGoneIsNotWaited
     ASSERT_EQ(rig.open(), "");
     rig.play(0.1, 64);
     constexpr std::size_t corner = 2; // at 0, 0
-    CollisionEvent tone;
-    tone.frequencyHz = 50;
-    tone.durationNs = 60'000'000'000;
-    tone.amplitude = 0.5;
+    const CollisionEvent tone{.frequencyHz = 50, .amplitude = 0.5, .durationNs = 60'000'000'000};
     ASSERT_TRUE(rig.session.submit({Strikes{{&tone, 1}}}));
-    EXPECT_GT(loudest(rig.play(1.0, 64)[corner]), 0.01f);
+    EXPECT_GT(peakOf(rig.play(1.0, 64)[corner]), 0.01f);
     std::vector<float> heard;
     rig.interface.whenAsked = [&] {
         rig.session.advance();
@@ -226,7 +216,7 @@ TEST(AudioOutput, WhatRingsFadesBeforeADeviceIsClosedAndOneThatIsGoneIsNotWaited
     rig.output.close();
     rig.interface.whenAsked = {};
     ASSERT_GE(heard.size(), 64u);
-    EXPECT_GT(loudest({heard.begin(), heard.begin() + 32}), 0.001f);
+    EXPECT_GT(peakOf(std::vector(heard.begin(), heard.begin() + 32)), 0.001f);
     EXPECT_EQ(heard.back(), 0.0f);
 
     ASSERT_EQ(rig.open(), "");
@@ -236,14 +226,10 @@ TEST(AudioOutput, WhatRingsFadesBeforeADeviceIsClosedAndOneThatIsGoneIsNotWaited
 
 TEST(AudioOutput, ALostDeviceMeansSilenceAMessageAndNoOtherDeviceAndNothingMissingAfterwards) {
     for (const bool tells : {true, false}) {
-        Rig rig;
-        ASSERT_EQ(rig.open(), "");
+        OpenRig rig;
         rig.play(3.0, 64);
         rig.interface.unplug(tells);
-        if (tells) {
-            for (const auto& channel : rig.interface.play(64))
-                EXPECT_EQ(loudest(channel), 0.0f) << "after an error";
-        }
+        if (tells) EXPECT_EQ(peakOf(rig.interface.play(64)), 0.0f) << "after an error";
         auto now = AudioOutput::Clock::now();
         rig.output.maintain(now); // whoever says nothing is found out by his silence
         const std::string gone =
@@ -302,7 +288,7 @@ TEST(AudioOutput, RateBlockAndLayoutChangeWhilePlayingAndNoCeilingIsPassed) {
             EXPECT_TRUE(
                 rig.session.submit({RenderControl{.kind = RenderControl::Kind::panner, .panner = &panner}}));
             const auto out = rig.play(4.0, block);
-            for (std::size_t k = 0; k < hands; ++k) most[k] = std::max(most[k], loudest(out[k]));
+            for (std::size_t k = 0; k < hands; ++k) most[k] = std::max(most[k], peakOf(out[k]));
         }
         for (std::size_t k = 0; k < hands; ++k) EXPECT_LE(most[k], setup.ceilings[k]) << k;
         for (std::size_t k = 0; k < 4; ++k)
@@ -318,11 +304,10 @@ TEST(AudioOutput, RateBlockAndLayoutChangeWhilePlayingAndNoCeilingIsPassed) {
 TEST(AudioOutput, WithTheLimiterNothingIsLeftToClip) {
     auto setup = eightHands();
     setup.ceilings.fill(0.05f);
-    Rig rig{setup};
+    OpenRig rig{1.0f, setup};
     Session bare{setup};
-    ASSERT_EQ(rig.open(), "");
     bare.prepare(hostRate, 64);
-    std::vector<std::vector<float>> samples(hands, std::vector<float>(64));
+    Signals samples(hands, std::vector<float>(64));
     std::vector<float*> at;
     for (auto& channel : samples) at.push_back(channel.data());
     rig.play(0.1, 64);
@@ -335,17 +320,16 @@ TEST(AudioOutput, WithTheLimiterNothingIsLeftToClip) {
         bare.advance();
         bare.render(at.data(), 64, RenderMode::realtime);
         ASSERT_TRUE(rig.play(64.0 / hostRate, 64) == samples) << i;
-        most = std::max(most, loudest(samples[0]));
+        most = std::max(most, peakOf(samples[0]));
     }
     EXPECT_LE(most, 0.05f);
     EXPECT_GT(most, 0.045f) << "loud enough for a test";
 }
 
 TEST(AudioOutput, BlocksNeverAnnouncedAreCutInPartsAndThenCoveredByL) {
-    Rig rig;
-    ASSERT_EQ(rig.open(), "");
+    OpenRig rig;
     const auto L = rig.session.timeline().outputLatencyFrames();
-    EXPECT_NE(rig.play(0.1, 20'000), std::vector<std::vector<float>>{});
+    EXPECT_NE(rig.play(0.1, 20'000), Signals{});
     EXPECT_EQ(rig.output.maintain(), "");
     EXPECT_EQ(rig.session.timeline().outputLatencyFrames(), L + limits::maxBlockFrames - 64);
     rig.play(10.0, 8192);
@@ -357,15 +341,15 @@ TEST(AudioOutput, BlocksNeverAnnouncedAreCutInPartsAndThenCoveredByL) {
 }
 
 TEST(AudioOutput, OutputsThatAreMissingAreToldAndTheOthersPlayAsEver) {
-    Rig rig, whole;
+    Rig rig;
+    OpenRig whole;
     rig.interface.outputs = 2;
     ASSERT_EQ(rig.open(), "");
-    ASSERT_EQ(whole.open(), "");
     EXPECT_EQ(rig.output.maintain(), "Fake:hands: 6 of 8 actuators have no output there");
     EXPECT_EQ(whole.output.maintain(), "");
     const auto few = rig.play(8.0, 64), all = whole.play(8.0, 64);
     ASSERT_EQ(few.size(), 2u);
-    EXPECT_GT(loudest(few[0]), 0.01f);
+    EXPECT_GT(peakOf(few[0]), 0.01f);
     EXPECT_TRUE(few[0] == all[0] && few[1] == all[1]);
     whole.interface.withheld = 7; // says that eight are active, gives one
     EXPECT_EQ(whole.play(1.0, 64).size(), 1u);
@@ -381,7 +365,7 @@ TEST(AudioOutput, EnchantersGoWhereTheMapSaysThoughUnconnectedOutputsAreLeftOut)
     const auto mapped = rig.play(8.0, 64), all = plain.play(8.0, 64);
     ASSERT_EQ(mapped.size(), 3u); // outputs 3, 4, 8
     EXPECT_TRUE(mapped[0] == all[3] && mapped[1] == all[2] && mapped[2] == all[0]);
-    EXPECT_GT(loudest(all[0]), 0.01f);
+    EXPECT_GT(peakOf(all[0]), 0.01f);
 }
 
 TEST(AudioOutput, AnActuatorThatWasToldToPlayNowhereIsNotMissed) {
@@ -409,57 +393,51 @@ TEST(AudioOutput, RatesOutsideTheLimitsStaySilentAndAreTold) {
 void playUntilLoud(Rig& a, Rig& b) {
     for (int i = 0; i < 10'000; ++i) {
         a.play(64.0 / hostRate, 64);
-        if (loudest(b.play(64.0 / hostRate, 64)[0]) > 0.1f) return;
+        if (peakOf(b.play(64.0 / hostRate, 64)[0]) > 0.1f) return;
     }
     FAIL() << "never loud";
 }
 
+/// What comes next is what comes of the other, but for a ramp of 5 ms up to that level.
+void expectARamp(Rig& rig, Rig& steady, double seconds, int block, float level) {
+    const auto out = rig.play(seconds, block), expected = steady.play(seconds, block);
+    for (std::size_t n = 0; n < out[0].size(); ++n)
+        EXPECT_NEAR(out[0][n],
+                    expected[0][n] * std::min(level, static_cast<float>(n + 1) / (0.005f * hostRate)), 1e-6f)
+            << n;
+}
+
 TEST(AudioOutput, ADeviceThatComesBackIsFadedInWithinFiveMilliseconds) {
-    Rig rig, steady;
-    ASSERT_EQ(rig.open({}, 0.5f), "");
-    ASSERT_EQ(steady.open(), "");
+    OpenRig rig{0.5f}, steady;
     playUntilLoud(rig, steady);
     rig.interface.unplug(true);
     rig.interface.isPlugged = true;
     ASSERT_EQ(rig.output.maintain(), "");
-    const auto out = rig.play(0.05, 64), expected = steady.play(0.05, 64);
-    for (std::size_t n = 0; n < out[0].size(); ++n)
-        EXPECT_NEAR(out[0][n],
-                    expected[0][n] * std::min(0.5f, static_cast<float>(n + 1) / (0.005f * hostRate)), 1e-6f)
-            << n;
+    expectARamp(rig, steady, 0.05, 64, 0.5f);
 }
 
 TEST(AudioOutput, TheSilenceSwitchActsWithinABlockAndComesBackInARamp) {
     for (const int block : {1, 32, 2048}) {
-        Rig rig, steady;
-        ASSERT_EQ(rig.open(), "");
-        ASSERT_EQ(steady.open(), "");
+        OpenRig rig, steady;
         playUntilLoud(rig, steady);
         rig.output.setSilent(true);
         const auto last = rig.play(1.0 / hostRate, block);
         EXPECT_EQ(last[0].back(), 0.0f) << block;
-        EXPECT_GT(loudest(steady.play(1.0 / hostRate, block)[0]), 0.01f);
-        for (const auto& channel : rig.play(0.1, block)) EXPECT_EQ(loudest(channel), 0.0f) << block;
+        EXPECT_GT(peakOf(steady.play(1.0 / hostRate, block)[0]), 0.01f);
+        EXPECT_EQ(peakOf(rig.play(0.1, block)), 0.0f) << block;
         steady.play(0.1, block);
         rig.output.setSilent(false);
-        const auto out = rig.play(0.1, block), expected = steady.play(0.1, block);
-        for (std::size_t n = 0; n < out[0].size(); ++n)
-            EXPECT_NEAR(out[0][n],
-                        expected[0][n] * std::min(1.0f, static_cast<float>(n + 1) / (0.005f * hostRate)),
-                        1e-6f)
-                << n;
+        expectARamp(rig, steady, 0.1, block, 1.0f);
     }
 }
 
 TEST(AudioOutput, SilenceIsLiftedByWhoAskedOrAtTheMachine) {
-    Rig rig, steady;
-    ASSERT_EQ(rig.open(), "");
-    ASSERT_EQ(steady.open(), "");
+    OpenRig rig, steady;
     MuteRequests& silence = rig.output.silence();
     const auto lift = [&silence](MuteRequester holder) { silence.lift(holder, silence.asked(holder)); };
     const auto expect = [&](bool isFelt, const char* why) {
         playUntilLoud(rig, steady);
-        EXPECT_EQ(loudest(rig.play(0.1, 64)[0]) > 0.0f, isFelt) << why;
+        EXPECT_EQ(peakOf(rig.play(0.1, 64)[0]) > 0.0f, isFelt) << why;
         steady.play(0.1, 64);
     };
     silence.request(MuteRequester::standardInput);
@@ -479,36 +457,30 @@ TEST(AudioOutput, SilenceIsLiftedByWhoAskedOrAtTheMachine) {
 
 TEST(AudioOutput, ASignalIsSilenceBeforeAnythingEnds) {
     for (const int block : {64, 2048}) {
-        Rig rig, steady;
-        ASSERT_EQ(rig.open(), "");
-        ASSERT_EQ(steady.open(), "");
+        OpenRig rig, steady;
         playUntilLoud(rig, steady);
         rig.interrupt = true; // by another thread, in the middle of whatever M does
         EXPECT_TRUE(rig.output.isSilent()) << "for the board beside it";
         EXPECT_EQ(rig.play(1.0 / hostRate, block)[0].back(), 0.0f) << block;
-        for (const auto& channel : rig.play(0.1, block)) EXPECT_EQ(loudest(channel), 0.0f) << block;
+        EXPECT_EQ(peakOf(rig.play(0.1, block)), 0.0f) << block;
         rig.output.setSilent(false);
-        for (const auto& channel : rig.play(0.1, block))
-            EXPECT_EQ(loudest(channel), 0.0f) << "nobody undoes it";
+        EXPECT_EQ(peakOf(rig.play(0.1, block)), 0.0f) << "nobody undoes it";
     }
 }
 
 TEST(AudioOutput, LevelsStartLowAndNeverExceedOne) {
     EXPECT_FLOAT_EQ(AudioOutputSettings{}.level,
                     static_cast<float>(std::pow(10.0, safeStartDecibels / 20.0)));
-    Rig rig, loud;
-    ASSERT_EQ(rig.open(), "");
-    ASSERT_EQ(loud.open({}, 40.0f), "");
+    OpenRig rig, loud{40.0f};
     EXPECT_TRUE(rig.play(3.0, 64) == loud.play(3.0, 64));
     loud.output.setLevel(std::nanf(""));
     loud.play(1.0, 64);
-    for (const auto& channel : loud.play(1.0, 64)) EXPECT_EQ(loudest(channel), 0.0f);
+    EXPECT_EQ(peakOf(loud.play(1.0, 64)), 0.0f);
 }
 
 // For the thread sanitizer: the interface has a thread of its own, the driver too, and M pulls the plug.
 TEST(AudioOutput, PlugsArePulledWhileTheDevicePlays) {
-    Rig rig;
-    ASSERT_EQ(rig.open(), "");
+    OpenRig rig;
     std::atomic<bool> stop{false};
     std::atomic<int> blocks{0};
     std::thread device{[&] {

@@ -22,12 +22,8 @@ public:
     void open(AudioOutput& output) { ASSERT_EQ(output.open({"hands", {}, 0, 0, 1.0f, 0, true}), ""); }
     void play(Session& session, double seconds, double x = 0.0) {
         for (int left = static_cast<int>(seconds * interface_.rate); left > 0; left -= interface_.block) {
-            CollisionEvent half;
-            half.frequencyHz = 200.0;
-            half.durationNs = 2'500'000;
-            half.amplitude = 4.0;
-            half.x = x;
-            half.y = 0.5;
+            const CollisionEvent half{
+                .frequencyHz = 200.0, .amplitude = 4.0, .x = x, .y = 0.5, .durationNs = 2'500'000};
             session.submit({Strikes{{&half, 1}}});
             session.advance();
             const auto blocks = interface_.play(interface_.block);
@@ -84,7 +80,6 @@ struct OpenRig : GuardRig {
 
 TEST(DeviceGuard, PeriodsAndRatesThatChangeAreNoWayAround) {
     OpenRig rig;
-    int changes = 0;
     for (const auto& [rate, block] : std::vector<std::pair<int, int>>{{48000, 64},
                                                                       {48000, 128},
                                                                       {48000, 256},
@@ -96,9 +91,8 @@ TEST(DeviceGuard, PeriodsAndRatesThatChangeAreNoWayAround) {
         rig.interface.block = block;
         rig.output.maintain();
         rig.play(0.12);
-        ++changes;
     }
-    EXPECT_GE(rig.interface.timesStarted, changes - 1);
+    EXPECT_GE(rig.interface.timesStarted, 6);
     rig.waves.expectWithin();
 }
 

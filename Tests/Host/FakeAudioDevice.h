@@ -3,8 +3,10 @@
 // number of outputs, fail, fall silent, hang, and ask for blocks that they never announced.
 #pragma once
 #include "Live/Devices/AudioDevice.h"
+#include "Live/Session/Session.h"
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <mutex>
 #include <utility>
@@ -17,7 +19,7 @@ class FakeDevice;
 struct FakeInterface {
     std::string name = "hands";
     bool isPlugged = true, opens = true;
-    int rate = 48000, block = 64, outputs = 8;
+    int rate = 48000, block = 64, outputs = 8, inputs = 0;
     std::vector<int> unconnected; ///< outputs that the callback does not get
     bool isReal = false;          ///< its pauses count, in real time
     int withheld = 0;             ///< outputs that the callback does not get although they are active
@@ -53,7 +55,7 @@ public:
 
     std::string name() const override { return name_; }
     int outputs() override { return thing_.outputs; }
-    int inputs() override { return 0; }
+    int inputs() override { return thing_.inputs; }
     int defaultBlockFrames() override { return thing_.block; }
     std::string open(const ChannelSet&, const ChannelSet& outputs, int, int) override {
         thing_.hang(FakeInterface::Call::open);
@@ -158,6 +160,34 @@ inline AudioDrivers fakeDrivers(std::vector<FakeInterface*> things, const std::s
         drivers.push_back(std::make_unique<FakeDriver>(things, driver));
         return drivers;
     };
+}
+
+using Signals = std::vector<std::vector<float>>; // one per output
+
+/// So many blocks of a session on an interface: what came out, per connected output. `use` gets each event.
+template <class Use>
+Signals playBlocks(Session& session, FakeInterface& interface, int blocks, int frames, Use use) {
+    Signals all;
+    for (; blocks > 0; --blocks) {
+        session.advance();
+        const auto block = interface.play(frames);
+        all.resize(block.size());
+        for (std::size_t k = 0; k < block.size(); ++k)
+            all[k].insert(all[k].end(), block[k].begin(), block[k].end());
+        for (PlayedEvent played; session.played().pop(played);) use(played.event);
+    }
+    return all;
+}
+
+inline float peakOf(const std::vector<float>& samples) {
+    float most = 0.0f;
+    for (const float s : samples) most = std::max(most, std::abs(s));
+    return most;
+}
+inline float peakOf(const Signals& outputs) {
+    float most = 0.0f;
+    for (const auto& samples : outputs) most = std::max(most, peakOf(samples));
+    return most;
 }
 
 } // namespace physvib::test

@@ -10,7 +10,6 @@ namespace physvib {
 namespace {
 
 using namespace test;
-using Signals = std::vector<std::vector<float>>;
 
 constexpr int felt = 4, blockFrames = 64;
 constexpr double interfaceRate = 48000.0;
@@ -28,22 +27,18 @@ SessionSetup setupOn(const std::string& layout, bool hasContactSound) {
 struct Rig {
     explicit Rig(const SessionSetup& setup)
         : session{setup} {}
+    Rig(const SessionSetup& setup, const ListeningSettings& listening)
+        : Rig{setup} {
+        EXPECT_EQ(open(listening), "");
+    }
     std::string open(const ListeningSettings& listening) {
         AudioOutputSettings settings{"hands", {}, 0, 0, 1.0f};
         settings.listening = listening;
         return output.open(settings);
     }
     Signals play(double seconds) {
-        Signals all;
-        for (int left = static_cast<int>(seconds * interface.rate); left > 0; left -= blockFrames) {
-            session.advance();
-            const auto block = interface.play(blockFrames);
-            all.resize(block.size());
-            for (std::size_t k = 0; k < block.size(); ++k)
-                all[k].insert(all[k].end(), block[k].begin(), block[k].end());
-            drain(session);
-        }
-        return all;
+        const int blocks = (static_cast<int>(seconds * interface.rate) + blockFrames - 1) / blockFrames;
+        return playBlocks(session, interface, blocks, blockFrames, [](const CollisionEvent&) {});
     }
     FakeInterface interface;
     Session session;
@@ -56,30 +51,14 @@ double rmsDb(const std::vector<float>& x, std::size_t from) {
     return 10.0 * std::log10(sum / static_cast<double>(x.size() - from));
 }
 
-float peakOf(const std::vector<float>& x) {
-    float most = 0.0f;
-    for (const float s : x) most = std::max(most, std::abs(s));
-    return most;
-}
-
-ListeningSettings noiseOn(std::vector<int> outputs, double db) {
-    ListeningSettings l;
-    l.noise = std::move(outputs);
-    l.noiseDb = db;
-    return l;
-}
-
-ListeningSettings contactsOn(std::vector<int> outputs, double db) {
-    ListeningSettings l;
-    l.contacts = std::move(outputs);
-    l.contactDb = db;
-    return l;
+/// A hit of the strength of half.
+CollisionEvent hitOf(double frequencyHz) {
+    return {.frequencyHz = frequencyHz, .decayPerSecond = 50.0, .amplitude = 0.5};
 }
 
 TEST(Listening, NoiseIsThereAtItsLevelOnItsOutputsAndChangesNothingForTheHands) {
-    Rig rig{setupOn("phone4", false)}, quiet{setupOn("phone4", false)};
-    ASSERT_EQ(rig.open(noiseOn({5, 6}, -30.0)), "");
-    ASSERT_EQ(quiet.open({}), "");
+    Rig rig{setupOn("phone4", false), {.noise = {5, 6}, .noiseDb = -30.0}},
+        quiet{setupOn("phone4", false), {}};
     const auto out = rig.play(8.0), hands = quiet.play(8.0);
     ASSERT_EQ(out.size(), felt + 2u) << "packed: four enchanters and two of the headphones";
     for (std::size_t j = 0; j < felt; ++j) EXPECT_EQ(out[j], hands[j]) << j;
@@ -90,18 +69,14 @@ TEST(Listening, NoiseIsThereAtItsLevelOnItsOutputsAndChangesNothingForTheHands) 
 }
 
 TEST(Listening, TheLoudestNoiseThatIsTakenStaysBelowFullScale) {
-    Rig rig{setupOn("phone4", false)};
-    ASSERT_EQ(rig.open(noiseOn({7}, 0.0)), ""); // held at the most
+    Rig rig{setupOn("phone4", false), {.noise = {7}, .noiseDb = 0.0}}; // held at the most
     const auto out = rig.play(10.0);
     EXPECT_NEAR(rmsDb(out[felt], 96000), PinkNoise::mostDb, 0.5);
     EXPECT_LT(peakOf(out[felt]), 1.0f);
 }
 
 TEST(Listening, SilenceIsForTheEarsAsWellAndTheMasterLevelIsNot) {
-    Rig rig{setupOn("phone4", true)};
-    auto both = noiseOn({5}, -30.0);
-    both.contacts = {6};
-    ASSERT_EQ(rig.open(both), "");
+    Rig rig{setupOn("phone4", true), {.noise = {5}, .noiseDb = -30.0, .contacts = {6}}};
     rig.play(3.0);
     rig.output.setLevel(0.0f);
     rig.play(0.1);
@@ -112,12 +87,12 @@ TEST(Listening, SilenceIsForTheEarsAsWellAndTheMasterLevelIsNot) {
     rig.output.setSilent(true);
     rig.play(blockFrames / 48000.0); // within a block
     out = rig.play(1.0);
-    for (const auto& channel : out) EXPECT_EQ(peakOf(channel), 0.0f);
+    EXPECT_EQ(peakOf(out), 0.0f);
 }
 
 TEST(Listening, ContactSoundsAreInSyncToTheSampleWithWhatIsFelt) {
-    Rig rig{setupOn("phone1", true)}; // one enchanter gets all of each hit: the same signal in both
-    ASSERT_EQ(rig.open(contactsOn({3, 4}, -20.0)), "");
+    // one enchanter gets all of each hit: the same signal in both
+    Rig rig{setupOn("phone1", true), {.contacts = {3, 4}, .contactDb = -20.0}};
     const auto out = rig.play(8.0);
     ASSERT_EQ(out.size(), 3u);
     ASSERT_GT(peakOf(out[0]), 0.1f);
@@ -135,14 +110,10 @@ std::size_t onsetOf(const std::vector<float>& x) {
 TEST(Listening, ARecordingIsHeardWhereThereIsOneFromTheFrameOfTheEnchantersOnset) {
     auto setup = setupOn("phone4", false);
     setup.contactSound = std::vector<ContactRecording>{{349.0, 48000, std::vector<float>(480, 1.0f)}};
-    Rig rig{setup};
-    ASSERT_EQ(rig.open(contactsOn({4}, -20.0)), "");
+    Rig rig{setup, {.contacts = {4}, .contactDb = -20.0}};
     rig.session.world().setSlowness(0);
     rig.play(0.5);
-    CollisionEvent hit;
-    hit.frequencyHz = 349.0;
-    hit.decayPerSecond = 50.0;
-    hit.amplitude = 0.5;
+    CollisionEvent hit = hitOf(349.0);
     hit.timeNs = 123'456'789;
     ASSERT_TRUE(rig.session.submit({Strikes{std::array{hit}}}));
     auto out = rig.play(1.0);
@@ -159,14 +130,10 @@ TEST(Listening, ARecordingIsHeardWhereThereIsOneFromTheFrameOfTheEnchantersOnset
 }
 
 TEST(Listening, StopsWithWhatIsFelt) {
-    Rig rig{setupOn("phone1", true)};
-    ASSERT_EQ(rig.open(contactsOn({3}, 0.0)), "");
+    Rig rig{setupOn("phone1", true), {.contacts = {3}, .contactDb = 0.0}};
     rig.session.world().setSlowness(0);
     rig.play(0.2);
-    CollisionEvent tone;
-    tone.frequencyHz = 200.0;
-    tone.amplitude = 0.5;
-    tone.durationNs = 5'000'000'000;
+    const CollisionEvent tone{.frequencyHz = 200.0, .amplitude = 0.5, .durationNs = 5'000'000'000};
     ASSERT_TRUE(rig.session.submit({Strikes{std::array{tone}}}));
     rig.play(1.0);
     ASSERT_TRUE(rig.session.submit({RenderControl{0, RenderControl::Kind::stopAll, 0, 0.0f, {}}}));
@@ -177,12 +144,8 @@ TEST(Listening, StopsWithWhatIsFelt) {
 TEST(Listening, NoneOfManyStopsIsLost) {
     ContactAudio heard{{}};
     heard.prepare(48000);
-    CollisionEvent tone;
-    tone.timeNs = 1'000'000;
-    tone.frequencyHz = 200.0;
-    tone.amplitude = 0.5;
-    tone.durationNs = 5'000'000'000;
-    heard.mirror(tone);
+    heard.mirror(CollisionEvent{
+        .timeNs = 1'000'000, .frequencyHz = 200.0, .amplitude = 0.5, .durationNs = 5'000'000'000});
     RenderControl stop;
     for (int k = 0; k < 384; ++k) heard.mirror(stop); // as many as a session's queues hold
     stop.timeNs = 20'000'000;
@@ -199,19 +162,21 @@ TEST(Listening, NoneOfManyStopsIsLost) {
 
 TEST(Listening, AnOutputIsAnEnchantersOrHeardAndIsTheDevices) {
     Rig rig{setupOn("phone4", false)};
-    EXPECT_EQ(rig.open(noiseOn({3}, -40.0)), "output 4 is an actuator's; expected another one to listen to");
-    EXPECT_EQ(rig.open(noiseOn({8}, -40.0)),
+    EXPECT_EQ(rig.open({.noise = {3}, .noiseDb = -40.0}),
+              "output 4 is an actuator's; expected another one to listen to");
+    EXPECT_EQ(rig.open({.noise = {8}, .noiseDb = -40.0}),
               "hands: has 8 outputs; expected one of them to listen to or for marks, found output 9");
-    EXPECT_EQ(rig.open(contactsOn({5}, -20.0)), "expected a session that makes contact sounds, found none");
-    EXPECT_EQ(rig.open(noiseOn({0, 1, 2, 3, 4, 5, 6, 7, 8}, -40.0)),
+    EXPECT_EQ(rig.open({.contacts = {5}, .contactDb = -20.0}),
+              "expected a session that makes contact sounds, found none");
+    EXPECT_EQ(rig.open({.noise = {0, 1, 2, 3, 4, 5, 6, 7, 8}, .noiseDb = -40.0}),
               "expected at most 8 outputs to listen to, found 9");
     EXPECT_EQ(rig.interface.timesStarted, 0) << "nothing half-done";
-    ASSERT_EQ(rig.open(noiseOn({4}, -40.0)), "");
+    ASSERT_EQ(rig.open({.noise = {4}, .noiseDb = -40.0}), "");
     EXPECT_EQ(rig.output.assign({0, 1, 2, 4}, 4),
               "output 5 is an actuator's; expected another one to listen to");
-    EXPECT_EQ(rig.output.hear(noiseOn({2}, -40.0)),
+    EXPECT_EQ(rig.output.hear({.noise = {2}, .noiseDb = -40.0}),
               "output 3 is an actuator's; expected another one to listen to");
-    EXPECT_EQ(rig.output.hear(noiseOn({11}, -40.0)),
+    EXPECT_EQ(rig.output.hear({.noise = {11}, .noiseDb = -40.0}),
               "Fake:hands: has 8 outputs; expected one of them to listen to or for marks, found output 12");
     rig.play(3.0);
     EXPECT_NEAR(rmsDb(rig.play(6.0)[felt], 0), -40.0, 0.5) << "all is as before";
@@ -220,15 +185,11 @@ TEST(Listening, AnOutputIsAnEnchantersOrHeardAndIsTheDevices) {
 TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
     auto setup = setupOn("phone4", true);
     setup.ears = 2;
-    Rig rig{setup};
-    ASSERT_EQ(rig.open(contactsOn({4, 5}, 0.0)), "");
+    Rig rig{setup, {.contacts = {4, 5}, .contactDb = 0.0}};
     rig.session.world().setSlowness(0);
     rig.play(0.2);
     const auto heardAt = [&](double x) {
-        CollisionEvent hit;
-        hit.frequencyHz = 205.0;
-        hit.decayPerSecond = 50.0;
-        hit.amplitude = 0.5;
+        CollisionEvent hit = hitOf(205.0);
         hit.x = x;
         EXPECT_TRUE(rig.session.submit({Strikes{std::array{hit}}}));
         const auto out = rig.play(1.0);
@@ -250,12 +211,6 @@ TEST(Listening, TwoEarsHearWhereItIsAsLoudWhereverItIsAndFollowAnotherField) {
     EXPECT_GT(rightOfWider, 0.2f);
 }
 
-ListeningSettings marksOn(std::vector<int> outputs) {
-    ListeningSettings l;
-    l.marks = std::move(outputs);
-    return l;
-}
-
 SessionSetup marked(bool hasContactSound = false) {
     auto setup = setupOn("phone1", hasContactSound);
     setup.marks = MarkedOnsets::all;
@@ -263,11 +218,8 @@ SessionSetup marked(bool hasContactSound = false) {
 }
 
 TEST(Listening, MarksStandAtTheOnsetsOnTheirOutputAndNeitherLevelNorCeilingMovesThem) {
-    Rig rig{marked(true)}, quiet{marked()};
-    auto all = contactsOn({3}, -20.0);
-    all.marks = {5};
-    ASSERT_EQ(rig.open(all), "");
-    ASSERT_EQ(quiet.open(marksOn({5})), "");
+    Rig rig{marked(true), {.contacts = {3}, .contactDb = -20.0, .marks = {5}}},
+        quiet{marked(), {.marks = {5}}};
     quiet.output.setLevel(0.0f);
     quiet.session.submit({RenderControl{0, RenderControl::Kind::mute, 0, 1.0f, {}}});
     const auto out = rig.play(6.0), muted = quiet.play(6.0);
@@ -282,14 +234,10 @@ TEST(Listening, MarksStandAtTheOnsetsOnTheirOutputAndNeitherLevelNorCeilingMoves
 }
 
 TEST(Listening, WhatIsSilencedIsNotMarkedAndNoPulseBeginsInItsMiddle) {
-    Rig rig{marked()};
-    ASSERT_EQ(rig.open(marksOn({2})), "");
+    Rig rig{marked(), {.marks = {2}}};
     rig.session.world().setSlowness(0);
     rig.play(0.2);
-    CollisionEvent hit;
-    hit.frequencyHz = 205.0;
-    hit.decayPerSecond = 50.0;
-    hit.amplitude = 0.5;
+    const CollisionEvent hit = hitOf(205.0);
     const auto marksAfter = [&](bool isSilentAtFirst) {
         EXPECT_TRUE(rig.session.submit({Strikes{std::array{hit}}}));
         // the pulse of 96 frames begins in the last of these
@@ -308,14 +256,13 @@ TEST(Listening, WhatIsSilencedIsNotMarkedAndNoPulseBeginsInItsMiddle) {
 
 TEST(Listening, MarksAreNeitherFeltNorHeard) {
     Rig rig{marked()}, without{setupOn("phone1", false)};
-    EXPECT_EQ(rig.open(marksOn({0})), "output 1 is an actuator's; expected another one for marks");
-    auto both = noiseOn({4}, -40.0);
-    both.marks = {4};
-    EXPECT_EQ(rig.open(both), "output 5 is listened to; expected another one for marks");
-    EXPECT_EQ(without.open(marksOn({4})), "expected a session that marks its onsets, found none");
-    EXPECT_EQ(rig.open(marksOn({8})),
+    EXPECT_EQ(rig.open({.marks = {0}}), "output 1 is an actuator's; expected another one for marks");
+    EXPECT_EQ(rig.open({.noise = {4}, .noiseDb = -40.0, .marks = {4}}),
+              "output 5 is listened to; expected another one for marks");
+    EXPECT_EQ(without.open({.marks = {4}}), "expected a session that marks its onsets, found none");
+    EXPECT_EQ(rig.open({.marks = {8}}),
               "hands: has 8 outputs; expected one of them to listen to or for marks, found output 9");
-    ASSERT_EQ(rig.open(marksOn({4})), "");
+    ASSERT_EQ(rig.open({.marks = {4}}), "");
     EXPECT_EQ(rig.output.assign({4}, 1), "output 5 is an actuator's; expected another one for marks");
 }
 
@@ -325,7 +272,7 @@ TEST(Listening, BeginsAndEndsWhileItPlays) {
     all.opensAll = true;
     ASSERT_EQ(rig.output.open(all), "");
     rig.play(0.5);
-    ASSERT_EQ(rig.output.hear(noiseOn({6}, -30.0)), "");
+    ASSERT_EQ(rig.output.hear({.noise = {6}, .noiseDb = -30.0}), "");
     EXPECT_EQ(rig.interface.timesOpened, 1) << "the hands notice nothing";
     rig.play(3.0);
     EXPECT_NEAR(rmsDb(rig.play(6.0)[6], 0), -30.0, 0.5);

@@ -33,23 +33,15 @@ struct Paused {
     }
     /// The loudest sample of that time.
     float play(double seconds) {
-        float most = 0.0f;
-        for (int k = 0; k < seconds * interface.rate / 64; ++k) {
-            session.advance();
-            for (const auto& channel : interface.play(64))
-                for (const float x : channel) most = std::max(most, std::abs(x));
-            for (const auto& event : drain(session)) log.push_back(event);
-        }
-        return most;
+        const auto blocks = static_cast<int>(std::ceil(seconds * interface.rate / 64));
+        return peakOf(playBlocks(session, interface, blocks, 64,
+                                 [this](const CollisionEvent& event) { log.push_back(event); }));
     }
     static CollisionEvent tone(double seconds, double atSeconds = 0.0) {
-        CollisionEvent event;
-        event.timeNs = std::llround(1e9 * atSeconds);
-        event.frequencyHz = 200.0;
-        event.decayPerSecond = 0.0;
-        event.durationNs = std::llround(1e9 * seconds);
-        event.amplitude = 0.2;
-        return event;
+        return {.timeNs = std::llround(1e9 * atSeconds),
+                .frequencyHz = 200.0,
+                .amplitude = 0.2,
+                .durationNs = std::llround(1e9 * seconds)};
     }
     Result<std::int64_t> strike(const CollisionEvent& event, bool canBeStopped = false) {
         return session.submit(

@@ -191,8 +191,11 @@ TEST(Receipts, AReaderNeverGetsHalfABin) {
 
 /// An output on a fake interface, and what its buffers held at each session time, as it is felt.
 struct OneOutput {
-    OneOutput() { setup.channels = 4; }
-    void open() { ASSERT_EQ(output.open({"hands", {3, 1, 0, -1}, 0, 0, 0.7f}), ""); }
+    explicit OneOutput(bool isReal = false) {
+        setup.channels = 4;
+        interface.isReal = isReal;
+        EXPECT_EQ(output.open({"hands", {3, 1, 0, -1}, 0, 0, 0.7f}), "");
+    }
 
     /// One block; pieces of what the device played without a break.
     void play(int frames, int piece) {
@@ -239,7 +242,6 @@ struct OneOutput {
 TEST(Receipts, EqualTheBuffersOfADeviceThatStopsAndComesBack) {
     for (const int moment : {1, 350, 601}) {
         OneOutput one;
-        one.open();
         Random random{static_cast<std::uint32_t>(moment)};
         int piece = 0;
         for (int block = 0; block < 900; ++block) {
@@ -261,7 +263,6 @@ TEST(Receipts, EqualTheBuffersOfADeviceThatStopsAndComesBack) {
 TEST(Receipts, ASpanOverAChangeOfPeriodOrRateIsNotInOnePiece) {
     for (const auto& [hz, block] : {std::pair{48000, 512}, {44100, 64}, {96000, 1024}}) {
         OneOutput one;
-        one.open();
         for (int k = 0; k < 500; ++k) one.play(64, 0);
         const auto feltNs = [&] {
             return nsOf(one.session.timeline().framesRendered() -
@@ -288,9 +289,7 @@ TEST(Receipts, ASpanOverAChangeOfPeriodOrRateIsNotInOnePiece) {
 }
 
 TEST(Receipts, AStallOfTheDeviceIsABreak) {
-    OneOutput one;
-    one.interface.isReal = true;
-    one.open();
+    OneOutput one{true};
     // until a second runs through without a pause, however busy the machine is
     for (int tries = 0; tries < 100; ++tries) {
         const std::int64_t from = one.session.timeline().framesRendered();
@@ -313,7 +312,6 @@ TEST(Receipts, AStallOfTheDeviceIsABreak) {
 
 TEST(Receipts, ABorrowedSessionHasItsOwn) {
     OneOutput one;
-    one.open();
     for (int k = 0; k < 100; ++k) one.play(64, 0);
     Session lent{one.setup};
     ASSERT_TRUE(one.output.playInstead(&lent));

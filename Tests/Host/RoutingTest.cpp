@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // No output has two masters: of any random wishes, those are refused in which an actuator would get noise,
 // contact sounds or marks, and after all others each source plays where it was asked to and nowhere else.
+#include "FakeAudioDevice.h"
 #include "Live/Devices/DeviceSession.h"
 #include "Live/Devices/OutputMap.h"
 #include "Live/Documents/Mix.h"
@@ -116,35 +117,12 @@ TEST(Routing, AFreeOutputIsTheLowestThatNobodyHas) {
     }
 }
 
-/// A device that has so many inputs and outputs, and does nothing.
-class CountedDevice final : public AudioDevice {
-public:
-    CountedDevice(int inputs, int outputs)
-        : inputs_{inputs}
-        , outputs_{outputs} {}
-    std::string name() const override { return "thing"; }
-    int outputs() override { return outputs_; }
-    int inputs() override { return inputs_; }
-    int defaultBlockFrames() override { return 64; }
-    std::string open(const ChannelSet&, const ChannelSet&, int, int) override { return {}; }
-    void close() override {}
-    bool isOpen() override { return false; }
-    void start(DeviceUser&) override {}
-    void stop() override {}
-    int sampleRateHz() override { return 48000; }
-    int blockFrames() override { return 64; }
-    ChannelSet activeOutputs() const override { return {}; }
-    int deviceLatencyFrames() override { return 0; }
-    int xruns() const override { return -1; }
-
-private:
-    int inputs_, outputs_;
-};
-
 TEST(Routing, ADeviceLacksWhatItDoesNotHave) {
     for (const int has : {0, 1, 2, 8})
         for (const int wanted : {-1, 0, 1, 2, 7, 8, 9}) {
-            CountedDevice device{has, has};
+            test::FakeInterface thing;
+            thing.inputs = thing.outputs = has;
+            test::FakeDevice device{thing};
             DeviceRequest inputs{.name = "thing"}, outputs{.name = "thing"};
             if (wanted >= 0) inputs.inputs = {wanted};
             outputs.highestHeard = wanted;

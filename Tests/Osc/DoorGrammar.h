@@ -11,7 +11,6 @@
 #include "Support/ClosedForm.h"
 #include <algorithm>
 #include <bit>
-#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -216,12 +215,13 @@ private:
                                      Act{"grip", true, "to_m", 2}};
 
     bool oneIn(int count) { return random_.below(count) == 0; }
-    const std::string& any(const std::vector<std::string>& list) {
+    template <class List>
+    const typename List::value_type& any(const List& list) {
         return list[static_cast<std::size_t>(random_.below(static_cast<int>(list.size())))];
     }
     std::string kind(const std::string& name) {
         constexpr std::array<const char*, 4> kinds{"message", "control", "input", "silence"};
-        if (oneIn(8)) return kinds[static_cast<std::size_t>(random_.below(4))];
+        if (oneIn(8)) return any(kinds);
         if (std::ranges::find(messageTable, name, &MessageDescription::name) != messageTable.end() &&
             !oneIn(3))
             return "message";
@@ -234,7 +234,7 @@ private:
                                  4e9,   9e15,   0.1,    3600.0, 1e-45, 20'000.0};
         if (oneIn(3)) return random_.uniform(0.0, 2.0);
         if (oneIn(3)) return random_.logUniform(1e-3, 1e5);
-        return odd[static_cast<std::size_t>(random_.below(static_cast<int>(odd.size())))];
+        return any(odd);
     }
     std::string word() {
         constexpr std::array words{"A",        "B",         "ZZ",    "now",  "layout",  "linear",   "energy",
@@ -242,7 +242,7 @@ private:
                                    "../x.wav", "/dev/zero", "on",    "1",    "stop",    "silence",  "hand",
                                    "\xff\xfe", "\n\x1b[2J", "{",     "%n%s"};
         if (oneIn(60)) return std::string(static_cast<std::size_t>(random_.below(5000)), 'A');
-        return words[static_cast<std::size_t>(random_.below(static_cast<int>(words.size())))];
+        return any(words);
     }
     PlainValue value() {
         if (oneIn(3)) return word();
@@ -275,12 +275,9 @@ private:
         constexpr std::array patterns{
             "/physvib/*",           "/physvib/sil*", "/*/silence",       "/physvib/{silence,stop}",
             "/physvib/[a-z]ilence", "/physvib/sil[", "/?hysvib/silenc?", "//silence"};
-        if (oneIn(12)) return patterns[static_cast<std::size_t>(random_.below(8))];
+        if (oneIn(12)) return any(patterns);
         if (oneIn(12)) return "/physvib/answer/" + name;
-        if (oneIn(12))
-            return std::string{
-                sensorFormats[static_cast<std::size_t>(random_.below(static_cast<int>(sensorFormats.size())))]
-                    .address};
+        if (oneIn(12)) return std::string{any(sensorFormats).address};
         if (oneIn(20)) return name;
         return "/physvib/" + name + (oneIn(20) ? "/" : "");
     }
@@ -325,7 +322,7 @@ private:
     std::string bundle(int depth) {
         constexpr std::array<OscTag, 6> tags{
             oscNow, 0, 2, ~OscTag{0}, OscTag{oscEpochSeconds + 1} << 32, OscTag{oscEpochSeconds + 60} << 32};
-        std::string bytes = padded("#bundle") + big(tags[static_cast<std::size_t>(random_.below(6))], 8);
+        std::string bytes = padded("#bundle") + big(any(tags), 8);
         for (int count = random_.below(4); count > 0; --count) {
             const std::string element = depth < 20 && oneIn(4) ? bundle(depth + 1) : osc();
             bytes +=

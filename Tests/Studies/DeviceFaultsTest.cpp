@@ -6,7 +6,6 @@
 #include "Host/FakeAudioDevice.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Participant.h"
-#include "TestPlaces.h"
 #include <cmath>
 #include <cstdlib>
 
@@ -66,14 +65,12 @@ const std::vector<Task>& tasks() {
     return all;
 }
 
-class DeviceFaults : public testing::TestWithParam<int> {
+class DeviceFaults : public test::StudyTest, public testing::WithParamInterface<int> {
 protected:
-    void SetUp() override {
+    DeviceFaults() {
         hands.isReal = true;
         hands.outputs = 2;
-        folder.createDirectory();
         p = std::make_unique<test::Participant>(withNoDevice(test::fakeDrivers({&hands})), "Fake:hands");
-        p->tab().setFolder(folder);
         p->model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
         p->model.change("One", [](Mix& mix) {
             mix.layout = presetLayout("phone1");
@@ -81,10 +78,6 @@ protected:
             mix.strips[0].output = 0;
         });
         run(64);
-    }
-    void TearDown() override {
-        p.reset();
-        folder.deleteRecursively();
     }
 
     /// The device asks for so many blocks, and the window looks between them.
@@ -157,7 +150,6 @@ protected:
     }
 
     test::FakeInterface hands;
-    juce::File folder = juce::File::createTempFile("physvib-faults");
     std::unique_ptr<test::Participant> p;
     std::vector<Burst> bursts;
     bool isPaced = false, isWhole = true; ///< isWhole: the test has not paused
@@ -171,11 +163,7 @@ private:
 TEST_P(DeviceFaults, AtAnyMomentRowsSamplesAndReportAgree) {
     const Task& task = tasks()[static_cast<std::size_t>(GetParam())];
     SCOPED_TRACE(task.name);
-    const auto file = folder.getChildFile("short.json");
-    file.replaceWithText(
-        std::string{R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", )"} +
-        task.stimuli + "}], \"sessions\": [" + task.session + "]}");
-    ASSERT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
+    ASSERT_EQ(choose(*p, test::shortProtocol(task.stimuli, task.session)), "");
     std::string fault = "not begun";
     for (int tries = 0; !fault.empty() && tries < 100; ++tries)
         run(2), fault = p->tab().begin(); // after a pause
@@ -204,7 +192,7 @@ TEST_P(DeviceFaults, AtAnyMomentRowsSamplesAndReportAgree) {
         int blocks = 0, played = 0; // in all, and since the first press that was heard
         for (bool isOpen = false; !isOpen && blocks < 80'000; ++blocks) {
             run(1);
-            ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial) << p->screen()->getDescription();
+            ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial) << p->words();
             if (p->screen()->plays() > 0) played += hands.block / 64;
             if (!hasFailed && played >= moment)
                 hasFailed = true, fail(faults[only != nullptr ? std::atoi(only) : n % 6]);
@@ -231,7 +219,7 @@ TEST_P(DeviceFaults, AtAnyMomentRowsSamplesAndReportAgree) {
             run(2);
         }
         ASSERT_EQ(p->experiment().trialsTaken(), n + 1);
-        const auto table = test::shortTrials(folder);
+        const auto table = rows();
         const auto cell = [&](const char* name) { return table.rows.back().cells[*table.column(name)]; };
         ASSERT_EQ(table.rows.size(), static_cast<std::size_t>(n + 1));
         EXPECT_EQ(cell("left"), "1");
@@ -257,25 +245,20 @@ TEST_P(DeviceFaults, AtAnyMomentRowsSamplesAndReportAgree) {
     }
     if (!isPeriod) EXPECT_GT(again, 0) << "some of the faults were within a part";
     EXPECT_EQ(p->screen()->page(), StudyScreen::Page::done);
-    const std::string call = "cd '" + folder.getFullPathName().toStdString() +
-                             "' && '" PHYSVIB_PROGRAM
-                             "' report short-P01.csv --out r --protocol short.json >/dev/null 2>&1 "
-                             "&& grep -q '^.\\?Fake:hands.*,20,20,' r/apparatus.csv";
-    const bool isTold = std::system(call.c_str()) == 0;
-    EXPECT_TRUE(isTold) << call;
+    call("report short-P01.csv --out r --protocol short.json >/dev/null 2>&1 "
+         "&& grep -q '^.\\?Fake:hands.*,20,20,' r/apparatus.csv");
     if (only != nullptr)
         std::printf("| %s | %s | %d of %d | %d | %.3f | %.4f of %d | %s |\n", task.name,
                     faultNames[std::atoi(only)], left, trials, again, loudest, farthest, parted,
-                    isTold && !HasFailure() ? "yes" : "NO");
+                    !HasFailure() ? "yes" : "NO");
 }
 
 INSTANTIATE_TEST_SUITE_P(Tasks, DeviceFaults, testing::Range(0, 4));
 
 TEST_F(DeviceFaults, NothingBeginsWithoutAnOutputForEachActuator) {
-    const auto file = folder.getChildFile("short.json");
-    file.replaceWithText(
-        R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", "layout": "phone4", "stimuli": "patterns", "enchanters": 4}], "sessions": [{"name": "main", "task": "identify"}]})");
-    ASSERT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
+    ASSERT_EQ(choose(*p, test::shortProtocol(R"("layout": "phone4", "stimuli": "patterns", "enchanters": 4)",
+                                             R"({"name": "main", "task": "identify"})")),
+              "");
     EXPECT_EQ(p->tab().begin(), "phone4 needs 4 actuators, the mixer has 1: choose a preset under Actuators");
     p->model.change("Four", [](Mix& mix) {
         mix.layout = presetLayout("phone4");

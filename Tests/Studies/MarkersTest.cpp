@@ -6,36 +6,26 @@
 namespace physvib {
 namespace {
 
-constexpr const char* points =
-    R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", "layout": "phone4", "stimuli": "grid", "columns": 3, "rows": 2, "seconds": 0.05}],
-  "sessions": [{"name": "main", "task": "identify"}]})";
-
-class StudyMarkersTest : public testing::Test {
+class StudyMarkersTest : public test::StudyTest {
 protected:
-    void SetUp() override {
-        folder.createDirectory();
+    StudyMarkersTest() {
         setenv("PHYSVIB_FAKE_LSL", folder.getChildFile("lsl.txt").getFullPathName().toRawUTF8(), 1);
     }
-    void TearDown() override {
+    ~StudyMarkersTest() override {
         unsetenv("PHYSVIB_LSL");
         unsetenv("PHYSVIB_FAKE_LSL");
-        folder.deleteRecursively();
     }
     void takeOneTrial() {
         test::Participant p;
-        const auto file = folder.getChildFile("short.json");
-        file.replaceWithText(points);
-        p.tab().setFolder(folder);
-        ASSERT_EQ(p.tab().chooseProtocol(file.getFullPathName().toStdString()), "");
-        ASSERT_EQ(p.tab().begin(), "");
-        p.pump();
+        begin(p, test::shortProtocol(
+                     R"("layout": "phone4", "stimuli": "grid", "columns": 3, "rows": 2, "seconds": 0.05)",
+                     R"({"name": "main", "task": "identify"})"));
         p.click("Next");
         p.feel();
         p.click("Row 1, column 2");
         p.click("Next");
-        ASSERT_TRUE(test::runUntil([&] { return p.experiment().trialsTaken() == 1; }));
+        ASSERT_TRUE(p.hasTaken(1));
     }
-    juce::File folder = juce::File::createTempFile("physvib-markers");
 };
 
 TEST_F(StudyMarkersTest, SayWhatWasFeltWhenAndWhatWasAnswered) {

@@ -6,22 +6,13 @@
 #include "Mixer/OnlyNoDevice.h"
 #include "Mixer/Studies/StudiesTab.h"
 #include "Mixer/Window/MixerView.h"
-#include <fstream>
+#include "TestPlaces.h"
+#include <cstdlib>
 #include <functional>
 #include <gtest/gtest.h>
-#include <iterator>
 #include <string>
 
 namespace physvib::test {
-
-/// The trial file that the protocol "short" has left in that folder.
-inline CsvTable shortTrials(const juce::File& folder) {
-    std::ifstream file{folder.getChildFile("short-P01.csv").getFullPathName().toStdString()};
-    const std::string text{std::istreambuf_iterator<char>{file}, {}};
-    auto table = readCsvTable(text, "short-P01.csv");
-    EXPECT_TRUE(table) << table.error;
-    return table.value;
-}
 
 /// The mixer in a window of its own.
 class Participant {
@@ -49,11 +40,24 @@ public:
     StudyScreen* screen() { return tab().screen(); }
     const Experiment& experiment() { return screen()->study().experiment(); }
 
-    /// A click in the middle of what has that title, once it may be clicked.
-    void click(const juce::String& title) {
+    WorldView& world() { return *dynamic_cast<WorldView*>(find("World")); }
+    /// What the study's screen says.
+    juce::String words() { return screen()->getDescription(); }
+
+    /// A click in the middle of what has that title, or beside that, once it may be clicked.
+    void click(const juce::String& title, float toTheRight = 0.0f) {
         ASSERT_TRUE(canUse(title)) << title;
         auto* target = find(title);
-        clickAt(view.getLocalPoint(target, target->getLocalBounds().toFloat().getCentre()));
+        clickAt(view.getLocalPoint(
+            target, target->getLocalBounds().toFloat().getCentre().translated(toTheRight, 0.0f)));
+    }
+    /// The screen goes, by itself or since it was left.
+    bool isGone() {
+        return runUntil([this] { return screen() == nullptr; });
+    }
+    bool leave() { return click("Leave the study; what was answered is kept"), isGone(); }
+    bool hasTaken(int trials) {
+        return runUntil([&] { return experiment().trialsTaken() == trials; });
     }
     void clickAt(juce::Point<float> at) {
         for (const int buttons : {0, int{juce::ModifierKeys::leftButtonModifier}, 0}) mouse(at, buttons);
@@ -137,6 +141,53 @@ private:
         return nullptr;
     }
     juce::int64 timeMs_ = juce::Time::currentTimeMillis();
+};
+
+/// The protocol "short" of one condition.
+inline std::string shortProtocol(const std::string& stimuli, const std::string& sessions,
+                                 const std::string& more = {}) {
+    return R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", )" + stimuli +
+           "}], \"sessions\": [" + sessions + "]" + more + "}";
+}
+
+/// A test of the protocol "short" in a folder, which goes with it.
+class StudyTest : public testing::Test {
+protected:
+    StudyTest() { folder.createDirectory(); }
+    ~StudyTest() override { folder.deleteRecursively(); }
+
+    /// Writes the protocol and chooses it: empty, or an error.
+    std::string choose(Participant& p, const std::string& protocol) const {
+        const auto file = folder.getChildFile("short.json");
+        file.replaceWithText(utf8(protocol));
+        p.tab().setFolder(folder);
+        return p.tab().chooseProtocol(file.getFullPathName().toStdString());
+    }
+    /// What one writes and does first, up to the page before the first session.
+    void begin(Participant& p, const std::string& protocol) const {
+        ASSERT_EQ(choose(p, protocol), "");
+        goOn(p);
+    }
+    static void goOn(Participant& p) {
+        ASSERT_EQ(p.tab().begin(), "");
+        p.pump();
+        ASSERT_NE(p.screen(), nullptr);
+    }
+    /// The trial file.
+    CsvTable rows() const {
+        const auto text = folder.getChildFile("short-P01.csv").loadFileAsString().toStdString();
+        auto table = readCsvTable(text, "short-P01.csv");
+        EXPECT_TRUE(table) << table.error;
+        return table.value;
+    }
+    /// Calls the program in the folder.
+    void call(const std::string& words) const {
+        const auto all =
+            "cd '" + folder.getFullPathName().toStdString() + "' && '" PHYSVIB_PROGRAM "' " + words;
+        EXPECT_EQ(std::system(all.c_str()), 0) << all;
+    }
+
+    const juce::File folder = juce::File::createTempFile("physvib-study");
 };
 
 } // namespace physvib::test

@@ -2,40 +2,34 @@
 // A scripted participant completes a short study of each kind by mouse and keyboard; the rows are what the
 // script answered, and `physvib analyse` takes them.
 #include "Participant.h"
-#include "Io/Text/CsvTable.h"
 #include "Lab/Files/ProtocolFile.h"
-#include "TestPlaces.h"
 #include <cstdlib>
 
 namespace physvib {
 namespace {
 
-class ByAParticipant : public testing::Test {
+constexpr const char* estimate = R"({"name": "main", "task": "estimate", "question": "How strong?"})";
+constexpr const char* point =
+    R"("layout": "phone2", "level_g": 0.2, "stimuli": "grid", "columns": 1, "rows": 1, "seconds": 0.05)";
+constexpr const char* twoPoints =
+    R"("layout": "phone2", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)";
+const std::string tone = "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g ";
+
+/// Stimuli of a call with one factor, whose values stand in a list of JSON.
+std::string calls(const std::string& factor, const std::string& values, const std::string& call) {
+    return R"("stimuli": "calls", "factors": [{"name": ")" + factor + R"(", "values": )" + values +
+           R"(}], "call": ")" + call + "\"";
+}
+
+class ByAParticipant : public test::StudyTest {
 protected:
-    void SetUp() override {
-        folder.createDirectory();
-        p = std::make_unique<test::Participant>();
-        p->tab().setFolder(folder);
-    }
-    void TearDown() override {
-        p.reset();
-        folder.deleteRecursively();
-    }
+    ByAParticipant() { p->tab().setFolder(folder); }
 
     /// Writes the protocol and begins with it.
     void begin(const std::string& sessions, const std::string& stimuli, const std::string& more = {}) {
-        const auto file = folder.getChildFile("short.json");
-        file.replaceWithText(
-            R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", )" + stimuli +
-            "}], \"sessions\": [" + sessions + "]" + more + "}");
-        ASSERT_EQ(p->tab().chooseProtocol(file.getFullPathName().toStdString()), "");
-        goOn();
+        StudyTest::begin(*p, test::shortProtocol(stimuli, sessions, more));
     }
-    void goOn() {
-        ASSERT_EQ(p->tab().begin(), "");
-        p->pump();
-        ASSERT_NE(p->screen(), nullptr);
-    }
+    void goOn() { StudyTest::goOn(*p); }
     /// Past the page before a session, by mouse.
     void passPage() {
         ASSERT_EQ(p->screen()->page(), StudyScreen::Page::pause);
@@ -45,7 +39,7 @@ protected:
     void close() {
         ASSERT_EQ(p->screen()->page(), StudyScreen::Page::done);
         p->enter();
-        ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+        ASSERT_TRUE(p->isGone());
         EXPECT_NE(p->find("Tabs"), nullptr) << "the mixer is back";
     }
     /// The events of the file of times.
@@ -57,7 +51,6 @@ protected:
                 line.fromFirstOccurrenceOf(",", false, false).upToFirstOccurrenceOf(",", false, false));
         return events.joinIntoString(" ");
     }
-    CsvTable rows() const { return test::shortTrials(folder); }
     /// A column of the rows of a task.
     std::vector<std::string> column(const std::string& name, const std::string& task) const {
         const auto table = rows();
@@ -66,15 +59,9 @@ protected:
             if (row.cells[*table.column("task")] == task) cells.push_back(row.cells[*table.column(name)]);
         return cells;
     }
-    void analyse(const std::string& kind) const {
-        const std::string call = "'" PHYSVIB_PROGRAM "' analyse " + kind + " '" +
-                                 folder.getChildFile("short-P01.csv").getFullPathName().toStdString() +
-                                 "' > /dev/null";
-        EXPECT_EQ(std::system(call.c_str()), 0) << call;
-    }
+    void analyse(const std::string& kind) const { call("analyse " + kind + " short-P01.csv > /dev/null"); }
 
-    juce::File folder = juce::File::createTempFile("physvib-participant");
-    std::unique_ptr<test::Participant> p;
+    std::unique_ptr<test::Participant> p = std::make_unique<test::Participant>();
 };
 
 using Texts = std::vector<std::string>;
@@ -99,20 +86,17 @@ TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
         p->click(firstOf(item.label));
         p->click(titleOf(item.label));
         felt.push_back(item.label);
-        ASSERT_TRUE(test::runUntil([&] {
-            return p->screen()->study().experiment().trialsTaken() == static_cast<int>(felt.size());
-        })) << item.label;
+        ASSERT_TRUE(p->hasTaken(static_cast<int>(felt.size()))) << item.label;
     }
     EXPECT_EQ(column("response", "explore"), felt);
     p->click(firstOf(items[0].label)); // once more, as often as wanted
     p->click(titleOf(items[0].label));
-    ASSERT_TRUE(
-        test::runUntil([&] { return p->experiment().trialsTaken() == static_cast<int>(items.size()) + 1; }));
+    ASSERT_TRUE(p->hasTaken(static_cast<int>(items.size()) + 1));
     ASSERT_EQ(p->screen()->page(), StudyScreen::Page::trial)
         << "a training ends when its participant says so";
     p->click("Next");
     passPage();
-    Texts answers, plays;
+    Texts answers;
     for (std::size_t n = 0; n < items.size(); ++n) {
         const std::string label = items[(5 * n + 3) % items.size()].label; // whatever it was
         EXPECT_FALSE(p->isAnswerOpen(firstOf(label))) << "nothing was felt yet";
@@ -130,7 +114,6 @@ TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
         p->click(titleOf(label));
         p->click("Next");
         answers.push_back(label);
-        plays.push_back(n == 4 ? "2" : "1");
     }
     close();
     EXPECT_EQ(column("response", "identify"), answers);
@@ -140,18 +123,16 @@ TEST_F(ByAParticipant, IdentifiesPatternsByTwoClicksAfterATraining) {
 }
 
 TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) {
-    begin(R"({"name": "main", "task": "identify", "repetitions": 2})",
-          R"("layout": "phone4", "stimuli": "grid", "columns": 3, "rows": 2, "seconds": 0.05)");
+    const char *const
+        session = R"({"name": "main", "task": "identify", "repetitions": 2})",
+        *const points = R"("layout": "phone4", "stimuli": "grid", "columns": 3, "rows": 2, "seconds": 0.05)";
+    begin(session, points);
     Texts answers, asked;
     for (int n = 0; n < 12; ++n) {
         if (n == 0) passPage();
         if (n == 7) { // the window goes, as in a crash; the rows are there
             p = std::make_unique<test::Participant>();
-            p->tab().setFolder(folder);
-            ASSERT_EQ(
-                p->tab().chooseProtocol(folder.getChildFile("short.json").getFullPathName().toStdString()),
-                "");
-            goOn();
+            begin(session, points);
             EXPECT_EQ(p->experiment().trialsTaken(), 7);
             passPage();
         }
@@ -168,7 +149,7 @@ TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) 
             p->enter();
             EXPECT_EQ(p->experiment().trialsTaken(), 5) << "chosen, not confirmed";
             p->enter();
-            ASSERT_TRUE(test::runUntil([&] { return p->experiment().trialsTaken() == 6; }));
+            ASSERT_TRUE(p->hasTaken(6));
             answers.push_back("2,2");
         }
     }
@@ -180,14 +161,13 @@ TEST_F(ByAParticipant, IdentifiesPointsOfAGridAndGoesOnWhereTheWindowWasClosed) 
 
 TEST_F(ByAParticipant, AClosedWindowPausesSaysSoAndThenLeaves) {
     EXPECT_FALSE(p->view.pauseStudy()) << "no study: the mixer asks as ever";
-    begin(R"({"name": "main", "task": "identify", "repetitions": 2})",
-          R"("layout": "phone2", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
+    begin(R"({"name": "main", "task": "identify", "repetitions": 2})", twoPoints);
     passPage();
     p->feel();
     EXPECT_TRUE(p->view.pauseStudy());
     p->pump();
     ASSERT_EQ(p->screen()->page(), StudyScreen::Page::paused);
-    EXPECT_TRUE(p->screen()->getDescription().contains("The study is paused."));
+    EXPECT_TRUE(p->words().contains("The study is paused."));
     EXPECT_FALSE(p->screen()->isFeeling());
     p->click("Next");
     passPage();
@@ -195,19 +175,18 @@ TEST_F(ByAParticipant, AClosedWindowPausesSaysSoAndThenLeaves) {
     p->feel();
     EXPECT_TRUE(p->view.pauseStudy());
     EXPECT_TRUE(p->view.pauseStudy()) << "again";
-    ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    ASSERT_TRUE(p->isGone());
     EXPECT_EQ(events(), "event start pause go-on pause leave");
 }
 
 TEST_F(ByAParticipant, AWindowClosedInABreakDoesNotBeginTheBreakAnew) {
-    begin(R"({"name": "main", "task": "identify", "break_before_s": 3})",
-          R"("layout": "phone2", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
-    EXPECT_TRUE(p->screen()->getDescription().contains("A break"));
+    begin(R"({"name": "main", "task": "identify", "break_before_s": 3})", twoPoints);
+    EXPECT_TRUE(p->words().contains("A break"));
     EXPECT_TRUE(p->view.pauseStudy());
     ASSERT_EQ(p->screen()->page(), StudyScreen::Page::paused);
     test::runFor(3.0);
     p->click("Next");
-    EXPECT_FALSE(p->screen()->getDescription().contains("A break")) << "it went on meanwhile";
+    EXPECT_FALSE(p->words().contains("A break")) << "it went on meanwhile";
     passPage();
     for (int n = 0; n < 2; ++n) p->feel(), p->click("Row 1, column 1"), p->click("Next");
     close();
@@ -220,8 +199,8 @@ TEST_F(ByAParticipant, FeelsAPairByOnePressAndIsToldWhatWasRight) {
     begin(
         R"({"name": "main", "task": "choose", "interval_s": 0.2, "feedback": true, "instruction": "Two vibrations follow one another.", "alternatives": [{"name": "a"}, {"name": "b"}],
             "staircase": {"alternative": "b", "most_db": 10, "most_trials": 2}})",
-        R"("layout": "phone2", "level_g": 0.2, "stimuli": "grid", "columns": 1, "rows": 1, "seconds": 0.05)");
-    EXPECT_TRUE(p->screen()->getDescription().contains("Two vibrations follow one another."));
+        point);
+    EXPECT_TRUE(p->words().contains("Two vibrations follow one another."));
     passPage();
     p->space();
     ASSERT_TRUE(test::runUntil([&] {
@@ -231,8 +210,7 @@ TEST_F(ByAParticipant, FeelsAPairByOnePressAndIsToldWhatWasRight) {
     p->click("Answer: number 1");
     p->click("Next");
     p->pump();
-    EXPECT_TRUE(p->screen()->getDescription().contains(isRight ? "That was right." : "That was wrong."))
-        << p->screen()->getDescription();
+    EXPECT_TRUE(p->words().contains(isRight ? "That was right." : "That was wrong.")) << p->words();
     EXPECT_EQ(column("correct", "choose"), Texts{isRight ? "1" : "0"});
 }
 
@@ -240,16 +218,16 @@ TEST_F(ByAParticipant, FeedbackStandsOnThePageAfterTheAnswerAndNotInAnotherSessi
     begin(
         R"({"name": "a", "task": "choose", "feedback": true, "alternatives": [{"name": "a"}, {"name": "b"}],
             "staircase": {"alternative": "b", "most_db": 10, "most_trials": 1}}, {"name": "b", "task": "identify"})",
-        R"("layout": "phone2", "level_g": 0.2, "stimuli": "grid", "columns": 1, "rows": 1, "seconds": 0.05)");
+        point);
     passPage();
     p->feel();
     p->feel();
     p->click("Answer: number 1");
     p->click("Next");
     ASSERT_EQ(p->screen()->page(), StudyScreen::Page::pause);
-    EXPECT_TRUE(p->screen()->getDescription().contains("That was")) << p->screen()->getDescription();
+    EXPECT_TRUE(p->words().contains("That was")) << p->words();
     passPage();
-    EXPECT_FALSE(p->screen()->getDescription().contains("That was")) << "it was of the session before";
+    EXPECT_FALSE(p->words().contains("That was")) << "it was of the session before";
 }
 
 TEST_F(ByAParticipant, AnAnswerWhileTheLastPartPlaysCountsOnceThatIsOver) {
@@ -272,14 +250,11 @@ TEST_F(ByAParticipant, AnAnswerWhileTheLastPartPlaysCountsOnceThatIsOver) {
 
 TEST_F(ByAParticipant, WhatTheExperimenterWasToldIsNoInstruction) {
     p->model.report("expected the outputs as in the trials before");
-    begin(
-        R"({"name": "main", "task": "identify"})",
-        R"("layout": "phone2", "level_g": 0.2, "stimuli": "grid", "columns": 1, "rows": 1, "seconds": 0.05)");
+    begin(R"({"name": "main", "task": "identify"})", point);
     passPage();
-    EXPECT_FALSE(p->screen()->getDescription().contains("trials before")) << p->screen()->getDescription();
+    EXPECT_FALSE(p->words().contains("trials before")) << p->words();
     p->model.report("the cable was pulled");
-    ASSERT_TRUE(test::runUntil(
-        [&] { return p->pump(), p->screen()->getDescription().contains("the cable was pulled"); }));
+    ASSERT_TRUE(test::runUntil([&] { return p->pump(), p->words().contains("the cable was pulled"); }));
 }
 
 TEST_F(ByAParticipant, BeginWaitsForTheCheck) {
@@ -322,7 +297,7 @@ TEST_F(ByAParticipant, PointsAtPlacesAfterFreeTouches) {
     passPage();
     for (int n = 1; n <= 3; ++n) {
         touch({0.25 * n, 0.2 * n});
-        ASSERT_TRUE(test::runUntil([&] { return p->experiment().trialsTaken() == n; }));
+        ASSERT_TRUE(p->hasTaken(n));
         EXPECT_EQ(p->isAnswerOpen("Next"), n == 3) << "how many touches are left is not told";
     }
     p->click("Next");
@@ -467,9 +442,7 @@ TEST_F(ByAParticipant, RatesOnlyWhatWasFeltForLongEnough) {
 }
 
 TEST_F(ByAParticipant, GivesTheNumberThatWasTypedWhereverTheFocusWent) {
-    begin(
-        R"({"name": "main", "task": "estimate", "question": "How strong?"})",
-        R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
+    begin(estimate, calls("level_g", R"(["0.05", "0.1"])", tone + "{level_g}"));
     passPage();
     const juce::String number{"12.5"};
     for (const bool isWindowLeft : {true, false}) {
@@ -490,9 +463,8 @@ TEST_F(ByAParticipant, GivesTheNumberThatWasTypedWhereverTheFocusWent) {
 }
 
 TEST_F(ByAParticipant, RowsTellWhatWasReallyFelt) {
-    begin(
-        R"({"name": "main", "task": "estimate", "question": "How strong?"})",
-        R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.1", "0.2"]}], "call": "stimulus phantom --at 0,0 --seconds 0.1 --level-g {level_g}")");
+    begin(estimate, calls("level_g", R"(["0.1", "0.2"])",
+                          "stimulus phantom --at 0,0 --seconds 0.1 --level-g {level_g}"));
     passPage();
     Texts stimuli;
     for (int n = 0; n < 2; ++n) {
@@ -552,12 +524,9 @@ TEST_F(ByAParticipant, DoesNotBeginWhatTheCheckRefuses) {
              pair, "expected one of 1, 2, 3, found \"1.5\""},
             {R"("call": "render --from-events {file}.csv --layout study1 --seconds 0.5", "factors": [{"name": "file", "values": ["tap", "gone"]}])",
              R"("task": "estimate")", "short: condition c, gone: "}}) {
-        const auto file = folder.getChildFile("short.json");
-        file.replaceWithText(
-            R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", "layout": "study1", "stimuli": "calls", )" +
-            calls + R"(}], "sessions": [{"name": "main", )" + task + "}]}");
-        const auto path = file.getFullPathName().toStdString();
-        std::string refused = p->tab().chooseProtocol(path);
+        std::string refused =
+            choose(*p, test::shortProtocol(R"("layout": "study1", "stimuli": "calls", )" + calls,
+                                           R"({"name": "main", )" + task + "}"));
         if (refused.empty()) refused = p->tab().begin();
         EXPECT_NE(refused.find(says), std::string::npos) << refused;
         ASSERT_EQ(p->screen(), nullptr) << calls;
@@ -566,10 +535,10 @@ TEST_F(ByAParticipant, DoesNotBeginWhatTheCheckRefuses) {
 
 TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
     p->model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
-    begin(
-        R"({"name": "main", "task": "estimate", "repetitions": 20, "question": "How strong?"})",
-        R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["1"]}], "call": "stimulus phantom --at 0,0 --seconds 0.8 --frequency 40 --level-g {level_g}")",
-        R"(, "exposure_limit_m_per_s2": 0.02)");
+    begin(R"({"name": "main", "task": "estimate", "repetitions": 20, "question": "How strong?"})",
+          calls("level_g", R"(["1"])",
+                "stimulus phantom --at 0,0 --seconds 0.8 --frequency 40 --level-g {level_g}"),
+          R"(, "exposure_limit_m_per_s2": 0.02)");
     passPage();
     int trials = 0;
     for (; p->screen()->page() == StudyScreen::Page::trial && trials < 20; ++trials) {
@@ -580,15 +549,14 @@ TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
     EXPECT_EQ(p->screen()->page(), StudyScreen::Page::exposed);
     EXPECT_GT(trials, 1) << "0.8 s of 1 g at 40 Hz are an A(8) of about 0.015 m/s^2";
     EXPECT_LT(trials, 4);
-    EXPECT_TRUE(p->screen()->getDescription().contains("the study pauses")) << p->screen()->getDescription();
-    EXPECT_TRUE(p->screen()->getDescription().contains("this study's limit is 0.02 m/s^2"))
-        << p->screen()->getDescription();
+    EXPECT_TRUE(p->words().contains("the study pauses")) << p->words();
+    EXPECT_TRUE(p->words().contains("this study's limit is 0.02 m/s^2")) << p->words();
     p->enter();
-    ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    ASSERT_TRUE(p->isGone());
     goOn();
     EXPECT_EQ(p->screen()->page(), StudyScreen::Page::exposed) << "the same day";
     p->enter();
-    ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    ASSERT_TRUE(p->isGone());
     const juce::File rows = folder.getChildFile("short-P01.csv");
     rows.setLastModificationTime(juce::Time::getCurrentTime() - juce::RelativeTime::days(2));
     goOn();
@@ -597,9 +565,7 @@ TEST_F(ByAParticipant, PausesWhereTheDaysExposureReachesTheProtocolsLimit) {
 }
 
 TEST_F(ByAParticipant, GivesNumbers) {
-    begin(
-        R"({"name": "main", "task": "estimate", "question": "How strong?"})",
-        R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1", "0.2"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
+    begin(estimate, calls("level_g", R"(["0.05", "0.1", "0.2"])", tone + "{level_g}"));
     passPage();
     const Texts numbers{"7", "12.5", "0.3"};
     for (const auto& n : numbers) {
@@ -627,10 +593,9 @@ TEST_F(ByAParticipant, GivesNumbers) {
 
 TEST_F(ByAParticipant, DescribesInWords) {
     for (const bool mayBeEmpty : {false, true}) {
-        begin(
-            std::string{R"({"name": "main", "task": "describe")"} +
-                (mayBeEmpty ? R"(, "may_be_empty": true})" : "}"),
-            R"("stimuli": "calls", "factors": [{"name": "level_g", "values": ["0.05", "0.1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g {level_g}")");
+        begin(std::string{R"({"name": "main", "task": "describe")"} +
+                  (mayBeEmpty ? R"(, "may_be_empty": true})" : "}"),
+              calls("level_g", R"(["0.05", "0.1"])", tone + "{level_g}"));
         passPage();
         p->feel();
         ASSERT_TRUE(p->canUse("Words"));
@@ -654,14 +619,8 @@ TEST_F(ByAParticipant, DescribesInWords) {
 }
 
 TEST_F(ByAParticipant, AnalysesFilesAsTheProgramDoesAndMarksWhatIsSimulated) {
-    const auto call = [&](const std::string& words) {
-        return std::system(
-            ("cd '" + folder.getFullPathName().toStdString() + "' && '" PHYSVIB_PROGRAM "' " + words)
-                .c_str());
-    };
-    ASSERT_EQ(call("study run phantom-grids --observer simulated-RING > /dev/null && '" PHYSVIB_PROGRAM
-                   "' analyse confusion phantom-grids-P01.csv > told.txt 2> warned.txt"),
-              0);
+    call("study run phantom-grids --observer simulated-RING > /dev/null && '" PHYSVIB_PROGRAM
+         "' analyse confusion phantom-grids-P01.csv > told.txt 2> warned.txt");
     p->tab().analyse({folder.getChildFile("phantom-grids-P01.csv")});
     ASSERT_NE(p->tab().analysis(), nullptr);
     const auto& report = p->tab().analysis()->report();
@@ -685,8 +644,7 @@ TEST_F(ByAParticipant, AnalysesFilesAsTheProgramDoesAndMarksWhatIsSimulated) {
 
 TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
     p->model.change("Mute", [](Mix& mix) { mix.strips[1].isMuted = true; });
-    begin(R"({"name": "main", "task": "identify"})",
-          R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)");
+    begin(R"({"name": "main", "task": "identify"})", twoPoints);
     EXPECT_EQ(p->model.session().world().slowness(), 0) << "the world stands still";
     passPage();
     p->key(juce::KeyPress::escapeKey);
@@ -698,8 +656,7 @@ TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
     p->feel();
     p->click("Row 1, column 1");
     p->click("Next");
-    p->click("Leave the study; what was answered is kept");
-    ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    ASSERT_TRUE(p->leave());
     EXPECT_EQ(p->model.session().world().slowness(), 1);
     EXPECT_EQ(column("response", "identify"), Texts{"1,1"});
 }
@@ -707,8 +664,7 @@ TEST_F(ByAParticipant, SilenceHoldsAndTheMixComesBack) {
 TEST_F(ByAParticipant, BeginsWithWhatTheCallOfTheProgramChose) {
     p->view.tabs().choose("Materials");
     const auto file = folder.getChildFile("short.json");
-    file.replaceWithText(
-        R"({"physvib_protocol": 1, "name": "short", "seed": 7, "conditions": [{"name": "c", "stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05}], "sessions": [{"name": "main", "task": "identify"}]})");
+    file.replaceWithText(test::shortProtocol(twoPoints, R"({"name": "main", "task": "identify"})"));
     p->view.chooseStudy({file.getFullPathName(), "Q7", 7, folder.getChildFile("rows").getFullPathName()});
     folder.getChildFile("rows").createDirectory();
     p->pump();
@@ -722,40 +678,30 @@ TEST_F(ByAParticipant, HearsPinkNoiseOnTheChosenOutputsForAsLongAsTheStudyGoesOn
     ASSERT_FALSE(choices.empty());
     EXPECT_EQ(choices.front(), (std::vector<int>{4, 5})) << "four enchanters have the first outputs";
     p->tab().setNoise({6, 7}, -30.0);
-    begin(R"({"name": "main", "task": "identify"})",
-          R"("stimuli": "grid", "columns": 2, "rows": 1, "seconds": 0.05)",
+    begin(R"({"name": "main", "task": "identify"})", twoPoints,
           R"(, "pink_noise": true, "pink_noise_db": -35)");
     EXPECT_EQ(p->model.device().listening().settings().noise, (std::vector<int>{6, 7}));
     EXPECT_EQ(p->model.device().listening().settings().noiseDb, -35.0)
         << "the protocol's level, as it was chosen later";
     EXPECT_EQ(p->model.device().listening().hear({{3}, -40.0, {}, 0.0}),
               "output 4 is an actuator's; expected another one to listen to");
-    p->click("Leave the study; what was answered is kept");
-    ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
+    ASSERT_TRUE(p->leave());
     EXPECT_TRUE(p->model.device().listening().settings().noise.empty());
 }
 
 TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
-    const auto leave = [&] {
-        p->click("Leave the study; what was answered is kept");
-        ASSERT_TRUE(test::runUntil([&] { return p->screen() == nullptr; }));
-    };
     const auto setMaster = [&](double db) {
-        Mix mix = p->model.mix();
-        mix.levelDb = db;
-        p->model.edit("Master level", mix);
+        p->model.change("Master level", [db](Mix& mix) { mix.levelDb = db; });
         p->pump();
     };
     setMaster(0.0);
-    begin(
-        R"({"name": "main", "task": "estimate", "repetitions": 3})",
-        R"("stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g 0.1")");
+    begin(R"({"name": "main", "task": "estimate", "repetitions": 3})", calls("n", R"(["1"])", tone + "0.1"));
     passPage();
     p->feel();
     ASSERT_TRUE(p->canUse("Number"));
     p->type("7");
     p->enter();
-    leave();
+    ASSERT_TRUE(p->leave());
     EXPECT_EQ(column("master_db", "estimate"), Texts{"0"});
     EXPECT_EQ(column("noise_db", "estimate"), Texts{"off"});
     EXPECT_EQ(column("limiter_db", "estimate"), Texts{"0"});
@@ -774,19 +720,18 @@ TEST_F(ByAParticipant, GoesOnWithTheApparatusOfTheTrialsBefore) {
         << "nothing is heard of a study that did not begin";
     p->tab().setNoise({}, -35.0);
     goOn();
-    leave();
+    ASSERT_TRUE(p->leave());
 }
 
 TEST_F(ByAParticipant, AnswersInTimeOrTheTrialRunsOut) {
-    begin(
-        R"({"name": "main", "task": "estimate", "repetitions": 3, "answer_within_s": 1.5})",
-        R"("stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --level-g 0.1")");
-    EXPECT_TRUE(p->screen()->getDescription().contains("Answer within 1.5 s."));
+    begin(R"({"name": "main", "task": "estimate", "repetitions": 3, "answer_within_s": 1.5})",
+          calls("n", R"(["1"])", tone + "0.1"));
+    EXPECT_TRUE(p->words().contains("Answer within 1.5 s."));
     passPage();
     const auto taken = [&] { return p->experiment().trialsTaken(); };
     p->feel();
     ASSERT_TRUE(test::runUntil([&] { return taken() == 1; })) << "time is over";
-    EXPECT_TRUE(p->screen()->getDescription().contains("Time was over."));
+    EXPECT_TRUE(p->words().contains("Time was over."));
     p->feel();
     p->model.setSilent(true);
     const double from = nowMs();
@@ -802,26 +747,18 @@ TEST_F(ByAParticipant, AnswersInTimeOrTheTrialRunsOut) {
 }
 
 TEST_F(ByAParticipant, WhatCannotBeFeltHereIsRefusedBeforeItBegins) {
-    const auto refusal = [&](const std::string& call) {
-        const auto file = folder.getChildFile("short.json");
-        file.replaceWithText(
-            R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", "stimuli": "calls", "factors": [{"name": "n", "values": ["1"]}], "call": ")" +
-            call + R"("}], "sessions": [{"name": "main", "task": "estimate"}]})");
-        const std::string fault = p->tab().chooseProtocol(file.getFullPathName().toStdString());
-        return fault.empty() ? p->tab().begin() : fault;
-    };
-    EXPECT_NE(refusal("stimulus phantom --at 0.5,2").find("expected X,Y from 0 to 1"), std::string::npos);
-    EXPECT_NE(
-        refusal("stimulus phantom --at 0.5,0.5 --level-g 40").find("expected at most its full scale of 1 g"),
-        std::string::npos);
-    EXPECT_NE(refusal("render drop --method SV").find("--method SV: expected a --sound for each material"),
-              std::string::npos);
-    EXPECT_NE(refusal("render drop --method SV --sound 80=gone.wav").find("gone.wav: cannot be read"),
-              std::string::npos);
-    EXPECT_NE(refusal("render drop --method SV --sound 81=synthetic-1")
-                  .find("expected a --sound for concrete block or 80 Hz"),
-              std::string::npos);
-    EXPECT_NE(refusal("devices").find("call: expected render or stimulus"), std::string::npos);
+    for (const auto& [call, says] : std::vector<std::pair<std::string, std::string>>{
+             {"stimulus phantom --at 0.5,2", "expected X,Y from 0 to 1"},
+             {tone + "40", "expected at most its full scale of 1 g"},
+             {"render drop --method SV", "--method SV: expected a --sound for each material"},
+             {"render drop --method SV --sound 80=gone.wav", "gone.wav: cannot be read"},
+             {"render drop --method SV --sound 81=synthetic-1",
+              "expected a --sound for concrete block or 80 Hz"},
+             {"devices", "call: expected render or stimulus"}}) {
+        std::string fault = choose(*p, test::shortProtocol(calls("n", R"(["1"])", call), estimate));
+        if (fault.empty()) fault = p->tab().begin();
+        EXPECT_NE(fault.find(says), std::string::npos) << fault;
+    }
     EXPECT_EQ(p->screen(), nullptr);
     EXPECT_FALSE(folder.getChildFile("short-P01.csv").exists());
 }

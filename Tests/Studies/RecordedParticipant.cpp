@@ -56,9 +56,7 @@ private:
             const juce::String title =
                 juce::String{scale}.substring(0, 1).toUpperCase() + juce::String{scale}.substring(1);
             if (!p.canUse(title)) return title.toStdString() + " cannot be set";
-            auto* slider = p.find(title);
-            p.clickAt(p.view.getLocalPoint(
-                slider, slider->getLocalBounds().toFloat().getCentre().translated(60.0f, 0.0f)));
+            p.click(title, 60.0f);
         }
         p.click("Next");
         return test::runUntil([&] { return p.experiment().trialsTaken() > taken; })
@@ -100,7 +98,7 @@ private:
         p.type(juce::String{part});
         if (!test::runUntil([&] { return p.pump(), world.isMoving() && p.screen()->plays() == part; }))
             return false;
-        auto& view = *dynamic_cast<WorldView*>(p.find("World"));
+        auto& view = p.world();
         const double least = p.experiment().session().leastSeconds;
         for (int drag = 0; world.feltSeconds() < least + 0.3; ++drag) {
             const auto body =

@@ -43,11 +43,8 @@ void findCut(const juce::Component& root, const std::string& page, std::vector<s
     }
 }
 
-class OnASmallDisplay : public testing::Test {
+class OnASmallDisplay : public test::StudyTest {
 protected:
-    void SetUp() override { folder.createDirectory(); }
-    void TearDown() override { folder.deleteRecursively(); }
-
     /// The trials before the first of that session are answered by the simulated observer.
     void answerUntil(const Protocol& protocol, std::size_t session, const juce::File& rows) const {
         const Participant participant{"P01", 1, "person"};
@@ -64,7 +61,6 @@ protected:
         }
     }
 
-    juce::File folder = juce::File::createTempFile("physvib-displays");
     test::Participant p;
 };
 
@@ -205,24 +201,13 @@ TEST(AnswerScreens, TheCornersOfAGridAreTheEnchanters) {
     }
 }
 
-class AParticipantElsewhere : public testing::Test {
+class AParticipantElsewhere : public test::StudyTest {
 protected:
-    void SetUp() override {
-        folder.createDirectory();
-        p.tab().setFolder(folder);
-    }
-    void TearDown() override { folder.deleteRecursively(); }
+    AParticipantElsewhere() { p.tab().setFolder(folder); }
     void begin(const std::string& stimuli, const std::string& session) {
-        const auto file = folder.getChildFile("short.json");
-        file.replaceWithText(
-            utf8(R"({"physvib_protocol": 1, "name": "short", "conditions": [{"name": "c", )" + stimuli +
-                 R"(}], "sessions": [{"name": "main", )" + session + "}]}"));
-        ASSERT_EQ(p.tab().chooseProtocol(file.getFullPathName().toStdString()), "");
-        ASSERT_EQ(p.tab().begin(), "");
-        p.pump();
+        StudyTest::begin(p, test::shortProtocol(stimuli, R"({"name": "main", )" + session + "}"));
         p.click("Next");
     }
-    juce::File folder = juce::File::createTempFile("physvib-elsewhere");
     test::Participant p;
 };
 
@@ -241,8 +226,7 @@ TEST_F(AParticipantElsewhere, AnswersMayBeGivenInASecondWindow) {
     p.clickOn(*p.findBelow(answers, "Next"));
     EXPECT_EQ(p.experiment().trialsTaken(), 1);
     p.feel();
-    p.click("Leave the study; what was answered is kept");
-    ASSERT_TRUE(test::runUntil([&] { return p.screen() == nullptr; }));
+    ASSERT_TRUE(p.leave());
 }
 
 TEST_F(AParticipantElsewhere, KoreanScreensShowLettersAndNoBoxes) {
@@ -256,8 +240,7 @@ TEST_F(AParticipantElsewhere, KoreanScreensShowLettersAndNoBoxes) {
     begin(
         R"("stimuli": "calls", "factors": [{"name": "pair", "values": ["1"]}], "call": "stimulus phantom --at 0.5,0.5 --seconds 0.05 --frequency {object}{pair}")",
         R"("task": "rate", "scales": ["realism", "harmony"], "definitions": ["The vibration felt realistic.", "I liked the vibration."], "objects": ["20", "30"])");
-    EXPECT_TRUE(p.screen()->getDescription().contains(utf8(korean.of("Rate what you felt."))))
-        << p.screen()->getDescription();
+    EXPECT_TRUE(p.words().contains(utf8(korean.of("Rate what you felt.")))) << p.words();
     p.feel();
     p.feel();
     EXPECT_TRUE(hasLetters({}, utf8(korean.of("Rate what you felt."))))

@@ -2,14 +2,11 @@
 // A scripted participant takes shortened versions of the thesis' studies 5.2 and 5.3: sees the world move,
 // drags, tilts, chooses, rates; the log of every trial renders to what came out of the device, bit for bit.
 #include "Host/FakeAudioDevice.h"
-#include "Io/Text/CsvTable.h"
 #include "Live/Documents/SessionFile.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Participant.h"
 #include "Scene/SceneFile.h"
-#include "TestPlaces.h"
 #include <cmath>
-#include <cstdlib>
 #include <span>
 #include <sstream>
 #include <thread>
@@ -48,24 +45,13 @@ private:
     std::thread thread_;
 };
 
-class AWorldInAStudy : public testing::Test {
+class AWorldInAStudy : public test::StudyTest {
 protected:
-    void SetUp() override {
-        folder.createDirectory();
-        p.tab().setFolder(folder);
+    AWorldInAStudy() {
         p.model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
         p.model.setDisplayWidth(1440.0 / 4000.0); // of the test's display: 4 pixels per mm
     }
-    void TearDown() override { folder.deleteRecursively(); }
-
-    void begin(const std::string& protocol) {
-        const auto file = folder.getChildFile("short.json");
-        file.replaceWithText(utf8(protocol));
-        ASSERT_EQ(p.tab().chooseProtocol(file.getFullPathName().toStdString()), "");
-        ASSERT_EQ(p.tab().begin(), "");
-        p.pump();
-    }
-    CsvTable rows() const { return test::shortTrials(folder); }
+    void begin(const std::string& protocol) { StudyTest::begin(p, protocol); }
     /// Of each part of a trial, as the row tells them.
     std::vector<double> levels(std::size_t trial, const std::string& column) const {
         const auto table = rows();
@@ -89,20 +75,17 @@ protected:
     }
     /// What `physvib` makes of a call, in the folder of the trial file.
     std::vector<float> rendered(const std::string& call) const {
-        const auto run = "cd '" + folder.getFullPathName().toStdString() + "' && '" PHYSVIB_PROGRAM "' " +
-                         call + " --out again.wav > /dev/null";
-        EXPECT_EQ(std::system(run.c_str()), 0) << run;
+        this->call(call + " --out again.wav > /dev/null");
         const auto wav = readRecording(folder.getChildFile("again.wav").getFullPathName().toStdString());
         EXPECT_TRUE(wav) << wav.error;
         return wav.value.channels.empty() ? std::vector<float>{} : wav.value.channels[0];
     }
     /// The peak in g that rendering a call prints, "(1.50 g)".
     double printedG(const std::string& call) const {
-        const auto text = folder.getChildFile("printed.txt");
-        const auto run = "cd '" + folder.getFullPathName().toStdString() + "' && '" PHYSVIB_PROGRAM "' " +
-                         call + " --out again.wav > printed.txt";
-        EXPECT_EQ(std::system(run.c_str()), 0) << run;
-        const auto words = text.loadFileAsString().fromFirstOccurrenceOf("peak ", false, false);
+        this->call(call + " --out again.wav > printed.txt");
+        const auto words = folder.getChildFile("printed.txt")
+                               .loadFileAsString()
+                               .fromFirstOccurrenceOf("peak ", false, false);
         return words.fromFirstOccurrenceOf("(", false, false).getDoubleValue();
     }
     /// How far the two agree where they agree longest.
@@ -137,7 +120,6 @@ protected:
         }
     }
 
-    juce::File folder = juce::File::createTempFile("physvib-worlds");
     Hands hands;
     test::Participant p{hands.drivers(), "Fake:hands"};
 };
@@ -158,7 +140,7 @@ TEST_F(AWorldInAStudy, FallsIsFeltAndChosenAndEveryLogRendersWhatWasFelt) {
         const int before = p.screen()->plays();
         p.space();
         ASSERT_TRUE(test::runUntil([&] { return p.screen()->plays() > before && p.screen()->isFeeling(); }));
-        auto& view = *dynamic_cast<WorldView*>(p.find("World"));
+        auto& view = p.world();
         const auto start = view.placeOfBody("wood sphere");
         EXPECT_TRUE(test::runUntil([&] {
             return p.pump(), view.placeOfBody("wood sphere").y > start.y + 20.0f;
@@ -210,7 +192,7 @@ TEST_F(AWorldInAStudy, IsDraggedTiltedAndRatedAndEveryLogRendersWhatWasFelt) {
     std::vector<std::string> methods;
     for (int trial = 0; trial < 2; ++trial) {
         methods.push_back(p.experiment().trial().stimulus);
-        auto& view = *dynamic_cast<WorldView*>(p.find("World"));
+        auto& view = p.world();
         for (int part = 1; part <= 3; ++part) {
             EXPECT_FALSE(p.isAnswerOpen("Pause")) << "not each was felt for long enough";
             if (part == 2)
@@ -236,11 +218,7 @@ TEST_F(AWorldInAStudy, IsDraggedTiltedAndRatedAndEveryLogRendersWhatWasFelt) {
         p.click("Pause");
         ASSERT_TRUE(p.canUse("Realism"));
         EXPECT_FALSE(p.isAnswerOpen("Next"));
-        for (const char* scale : {"Realism", "Liking"}) {
-            auto* slider = p.find(scale);
-            p.clickAt(p.view.getLocalPoint(slider, slider->getLocalBounds().toFloat().getCentre().translated(
-                                                       trial == 0 ? 120.0f : -120.0f, 0.0f)));
-        }
+        for (const char* scale : {"Realism", "Liking"}) p.click(scale, trial == 0 ? 120.0f : -120.0f);
         p.click("Next");
     }
     EXPECT_EQ(p.screen()->page(), StudyScreen::Page::done);
@@ -306,7 +284,7 @@ TEST_F(AWorldInAStudy, ASceneAndWordsMayLieBesideTheProtocol) {
     EXPECT_EQ(p.screen()->words()("Begin"), "Los");
     p.click("Next");
     p.feel();
-    EXPECT_EQ(p.screen()->page(), StudyScreen::Page::trial) << p.screen()->getDescription();
+    EXPECT_EQ(p.screen()->page(), StudyScreen::Page::trial) << p.words();
     EXPECT_TRUE(folder.getChildFile("short-P01.felt/trial-0001-1.json").existsAsFile());
 }
 
@@ -321,7 +299,7 @@ std::string fallingWith(const std::string& inWorld, const std::string& atTop = {
 TEST_F(AWorldInAStudy, IsSeenAtTheScaleOfTheProtocol) {
     begin(fallingWith(R"( "display_scale": 100,)"));
     p.click("Next");
-    auto& view = *dynamic_cast<WorldView*>(p.find("World"));
+    auto& view = p.world();
     EXPECT_NEAR(view.pixelsPerMetre(), 40.0f, 0.01f) << "4 pixels per mm, and 1 m is 10 mm";
     EXPECT_TRUE(view.fits());
     p.tab().end();
@@ -330,8 +308,7 @@ TEST_F(AWorldInAStudy, IsSeenAtTheScaleOfTheProtocol) {
     p.click("Next");
     p.space();
     EXPECT_TRUE(test::runUntil([&] { return p.pump(), p.screen()->page() == StudyScreen::Page::fault; }));
-    EXPECT_TRUE(p.screen()->getDescription().contains("as the world is 800 x 450 mm at 1:10"))
-        << p.screen()->getDescription();
+    EXPECT_TRUE(p.words().contains("as the world is 800 x 450 mm at 1:10")) << p.words();
     p.tab().end();
     p.model.setDisplayWidth(0.0);
     EXPECT_NE(p.tab().begin().find("display_scale: expected the width of the display to be set"),
@@ -343,9 +320,7 @@ TEST_F(AWorldInAStudy, MaterialsMayHaveAPictureOfTheParticipantsOwn) {
     const auto file = folder.getChildFile("pictures/P01-wood.png");
     const auto protocol =
         fallingWith({}, R"( "pictures": [{"material": "wood", "file": "pictures/{participant}-wood.png"}],)");
-    const auto chosen = folder.getChildFile("short.json");
-    chosen.replaceWithText(utf8(protocol));
-    ASSERT_EQ(p.tab().chooseProtocol(chosen.getFullPathName().toStdString()), "");
+    ASSERT_EQ(choose(p, protocol), "");
     EXPECT_NE(p.tab().begin().find("pictures[0].file: "), std::string::npos) << "there is none yet";
     file.create();
     file.replaceWithText("no picture");
@@ -360,10 +335,9 @@ TEST_F(AWorldInAStudy, MaterialsMayHaveAPictureOfTheParticipantsOwn) {
     file.replaceWithData(huge.getData(), huge.getSize());
     EXPECT_NE(p.tab().begin().find("expected a PNG picture of at most"), std::string::npos);
     file.replaceWithData(png.getData(), png.getDataSize());
-    ASSERT_EQ(p.tab().begin(), "");
-    p.pump();
+    goOn(p);
     p.click("Next");
-    auto& view = *dynamic_cast<WorldView*>(p.find("World"));
+    auto& view = p.world();
     const auto seen = view.createComponentSnapshot(view.getLocalBounds());
     int reds = 0; // neither the textures nor the screen have any
     for (int y = 0; y < seen.getHeight(); ++y)
