@@ -53,14 +53,12 @@ TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
     EnchanterLayout layout;
     layoutPreset("phone2", layout);
     ToneFeed feed{kind, {layout, PanningLaw::linear, 1.0, 1.0, 1.0}};
-    CollisionEvent tone;
-    tone.timeNs = 50 * ms;
-    tone.frequencyHz = 100.0;
-    tone.decayPerSecond = 0.1;
-    tone.amplitude = 0.8;
-    tone.x = 1.0;
-    tone.y = 0.5;
-    feed.made(tone);
+    feed.made({.timeNs = 50 * ms,
+               .frequencyHz = 100.0,
+               .decayPerSecond = 0.1,
+               .amplitude = 0.8,
+               .x = 1.0,
+               .y = 0.5});
     std::int64_t now = 0;
     int reports = 0;
     const auto last = [&](int milliseconds, float level) {
