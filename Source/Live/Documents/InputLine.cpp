@@ -91,10 +91,6 @@ std::optional<double> idIn(std::string_view line) {
     return id && isId(*id) ? id : std::nullopt;
 }
 
-OrderedJson plainJson(const PlainValue& value) {
-    return std::visit([](const auto& plain) { return OrderedJson(plain); }, value);
-}
-
 bool isControl(const std::string& name) {
     return name == silenceName || std::ranges::find(controlNames, name) != controlNames.end();
 }
@@ -103,7 +99,8 @@ bool isControl(const std::string& name) {
 
 std::string answerLine(const PlainMessage& answer) {
     OrderedJson json{{"answer", answer.name}};
-    for (const NamedValue& value : answer.values) json[value.name] = plainJson(value.value);
+    for (const NamedValue& value : answer.values)
+        json[value.name] = std::visit([](const auto& plain) { return OrderedJson(plain); }, value.value);
     return jsonLine(json);
 }
 

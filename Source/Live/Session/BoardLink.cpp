@@ -58,6 +58,33 @@ constexpr std::int64_t lineNs(std::size_t bytes) {
     return static_cast<std::int64_t>(bytes) * 10 * second / wire::lineBitsPerSecond;
 }
 
+constexpr int stLinkVendor = 0x0483;
+
+struct PortDeleter {
+    void operator()(sp_port* port) const { sp_free_port(port); }
+};
+using Port = std::unique_ptr<sp_port, PortDeleter>;
+
+class PortLine final : public SerialLine {
+public:
+    explicit PortLine(Port port)
+        : port_{std::move(port)} {}
+    ~PortLine() override { sp_close(port_.get()); }
+    int read(std::span<std::uint8_t> bytes, int milliseconds) override {
+        return sp_blocking_read_next(port_.get(), bytes.data(), bytes.size(),
+                                     static_cast<unsigned>(milliseconds));
+    }
+    bool write(std::span<const std::uint8_t> bytes) override {
+        return sp_blocking_write(port_.get(), bytes.data(), bytes.size(), 50) ==
+               static_cast<int>(bytes.size());
+    }
+
+private:
+    Port port_;
+};
+
+std::string textOr(const char* text, const char* otherwise) { return text != nullptr ? text : otherwise; }
+
 } // namespace
 
 std::int64_t BoardLink::nowNs() noexcept { return steadyNs(); }
@@ -309,10 +336,8 @@ double BoardLink::transitMs() const {
     return 1e3 * clock_.worstDelaySeconds() + now_.board.aheadFrames * 1e3 / limits::board::sampleRateHz;
 }
 
-double BoardLink::outputLatencyMs() const { return transitMs() + marginMs; }
-
 void BoardLink::publish() {
-    if (clock_.isReady()) now_.outputLatencyMs = outputLatencyMs();
+    if (clock_.isReady()) now_.outputLatencyMs = transitMs() + marginMs;
     now_.driftPpm = clock_.drift() * 1e6;
     now_.thinned = backlog_.thinned() + strikes_.overflows();
     now_.badFrames = decoder_.bad();
@@ -329,37 +354,6 @@ void BoardLink::send(const Message& message) {
 }
 
 // Serial ports by libserialport.
-
-namespace {
-
-constexpr int stLinkVendor = 0x0483;
-
-struct PortDeleter {
-    void operator()(sp_port* port) const { sp_free_port(port); }
-};
-using Port = std::unique_ptr<sp_port, PortDeleter>;
-
-class PortLine final : public SerialLine {
-public:
-    explicit PortLine(Port port)
-        : port_{std::move(port)} {}
-    ~PortLine() override { sp_close(port_.get()); }
-    int read(std::span<std::uint8_t> bytes, int milliseconds) override {
-        return sp_blocking_read_next(port_.get(), bytes.data(), bytes.size(),
-                                     static_cast<unsigned>(milliseconds));
-    }
-    bool write(std::span<const std::uint8_t> bytes) override {
-        return sp_blocking_write(port_.get(), bytes.data(), bytes.size(), 50) ==
-               static_cast<int>(bytes.size());
-    }
-
-private:
-    Port port_;
-};
-
-std::string textOr(const char* text, const char* otherwise) { return text != nullptr ? text : otherwise; }
-
-} // namespace
 
 std::vector<SerialPortName> listSerialPorts() {
     std::vector<SerialPortName> names;

@@ -164,7 +164,6 @@ private:
     void sendStrikes();
     void publish();
     double transitMs() const;
-    double outputLatencyMs() const;
     bool isLineFree(std::int64_t now) const;
     template <class Message>
     void send(const Message& message);
