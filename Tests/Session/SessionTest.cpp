@@ -166,21 +166,6 @@ TEST(Session, ADriverThatIsSlowerThanPromisedMakesTheWorldWaitAndNoEventLate) {
     EXPECT_GT(played.size(), 100u);
 }
 
-TEST(Session, OfflineBlocksPlayTheSameEventsAsLiveOnes) {
-    const auto s = shakeTheBoxSetup(0.05);
-    Session session{s};
-    session.prepare(rate, 8192);
-    Block block;
-    Interleaved signal;
-    for (std::int64_t done = 0; done < 20 * rate;) {
-        const int size = static_cast<int>(std::min<std::int64_t>(20 * rate - done, 8192));
-        session.render(block.at.data(), size, RenderMode::offline);
-        append(signal, block.at.data(), size);
-        done += size;
-    }
-    EXPECT_TRUE(signal == rendered(s, session.timeline().outputLatencyFrames(), 20 * rate));
-}
-
 TEST(Session, AHostThatFlipsBetweenLiveAndOfflineLosesAndRepeatsNoEvent) {
     // this host is a thousand times faster than time; no stall is meant here
     const auto s = shakeTheBoxSetup(0.6);
