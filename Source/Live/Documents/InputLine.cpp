@@ -58,11 +58,6 @@ LineInput readAct(const JsonField& json, const std::vector<Material>& materials,
     return SilenceControl{json["on"].truth()};
 }
 
-LineInput readLine(const JsonField& json, const std::vector<Material>& materials, int channels) {
-    json.expectObject();
-    return json.has("message") ? LineInput{readMessage(json)} : readAct(json, materials, channels);
-}
-
 constexpr std::string_view idName = "id";
 constexpr double mostId = 9'007'199'254'740'991; // larger integers are not exact in JSON
 
@@ -110,7 +105,9 @@ InputLine readInputLine(std::string_view line, const std::vector<Material>& mate
         try {
             Json root = parseStrictly(line);
             id = takeId(root);
-            return readLine(JsonField(root, {}), materials, channels);
+            const JsonField json(root, {});
+            json.expectObject();
+            return json.has("message") ? LineInput{readMessage(json)} : readAct(json, materials, channels);
         } catch (const JsonError& error) {
             return Failure{error.what()};
         }

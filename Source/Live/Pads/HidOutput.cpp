@@ -31,6 +31,10 @@ bool isOneOf(std::span<const HidModel> models, const std::string& id, PadBus& bu
     });
 }
 
+constexpr std::int64_t msNs = 1'000'000;
+constexpr std::int64_t lookNs = 250 * msNs; // search interval for a newly connected controller
+constexpr std::int64_t patienceNs = 500 * msNs;
+
 } // namespace
 
 HidFolders HidFolders::ofSystem() {
@@ -93,14 +97,6 @@ bool HidDevice::write(std::span<const std::uint8_t> report) {
     return std::filesystem::exists(place_.node, ignored) &&
            std::fwrite(report.data(), 1, report.size(), file_) == report.size();
 }
-
-namespace {
-
-constexpr std::int64_t msNs = 1'000'000;
-constexpr std::int64_t lookNs = 250 * msNs; // search interval for a newly connected controller
-constexpr std::int64_t patienceNs = 500 * msNs;
-
-} // namespace
 
 HidOutput::HidOutput(const std::string& where, std::unique_ptr<HidFeed> feed)
     : where_{where.empty() ? anyPad : where}

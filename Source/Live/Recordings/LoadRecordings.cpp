@@ -69,26 +69,11 @@ Result<std::vector<ContactRecording>> loadSet(const std::vector<RecordingFile>& 
             if (const auto found = std::ranges::find(other, file, &ContactRecording::file);
                 found != other.end())
                 known = &*found;
-        if (known != nullptr) {
-            set.push_back(*known);
-            continue;
-        }
-        auto contact = loadContact(file);
+        auto contact = known != nullptr ? Result<ContactRecording>{*known} : loadContact(file);
         if (!contact) return Failure{contact.error};
         set.push_back(std::move(contact.value));
     }
     return set;
-}
-
-std::size_t samplesOf(const std::vector<ContactRecording>& set) {
-    std::size_t count = 0;
-    for (const ContactRecording& recording : set) count += recording.samples.size();
-    return count;
-}
-
-void normalise(std::vector<float>& samples) {
-    const float peak = peakOf(samples);
-    for (float& x : samples) x /= peak;
 }
 
 /// A synthetic contact, for trying out what needs recordings: six partials from `frequencyHz` up and 3 ms of
@@ -273,7 +258,7 @@ Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
         if (same != files.end()) continue;
         auto set = loadSet(change.files, all);
         if (!set) return Failure{set.error};
-        samples += samplesOf(set.value);
+        for (const ContactRecording& recording : set.value) samples += recording.samples.size();
         if (files.size() == limits::maxRecordingSets)
             return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSets) +
                            " different sets"};
@@ -302,7 +287,8 @@ Result<ContactRecording> loadContact(const RecordingFile& file) {
     if (!contact) return contact;
     if (auto fault = takeHash(contact.value.file); !fault.empty()) return Failure{fault};
     auto& [frequencyHz, rateHz, samples, source, note] = contact.value;
-    if (syntheticSeed(file.path) != linearSeed) normalise(samples); // that begins at 1, as a mode does
+    if (syntheticSeed(file.path) != linearSeed) // that begins at 1, as a mode does
+        for (const float peak = peakOf(samples); float& x : samples) x /= peak;
     if (!file.isMatched || !(file.decayPerSecond > 0.0)) return contact;
     const auto gain = static_cast<float>(
         std::sqrt(energyOfMode(frequencyHz, file.decayPerSecond, rateHz) / energyOf(samples, rateHz)));

@@ -106,9 +106,9 @@ void BoardLink::setGains(const std::array<double, limits::board::channels>& gain
     order([&](Orders& o) { o.gains = message; });
 }
 
-void BoardLink::follow(BoardSource* source) {
-    const std::scoped_lock lock{sourceMutex_};
-    source_ = source;
+void BoardLink::follow(std::function<void()> feed) {
+    const std::scoped_lock lock{feedMutex_};
+    feed_ = std::move(feed);
 }
 
 std::string BoardLink::awaitReady(const std::function<bool()>& keepGoing) const {
@@ -139,16 +139,14 @@ void BoardLink::run() {
             obey();
             if (line_) keepInTouch();
         }
-        askSource();
+        {
+            const std::scoped_lock lock{feedMutex_};
+            if (feed_) feed_();
+        }
         sendStrikes();
         publish();
     }
     if (line_ && now_.state != State::greeting) send(wire::StopAll{});
-}
-
-void BoardLink::askSource() {
-    const std::scoped_lock lock{sourceMutex_};
-    if (source_ != nullptr) source_->feed();
 }
 
 // Opens the next port; the handshake follows.

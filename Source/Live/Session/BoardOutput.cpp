@@ -80,11 +80,11 @@ std::string BoardOutput::awaitReady(const std::function<bool()>& keepGoing) {
 
 void BoardOutput::follow(OutputClock* device) {
     if (device == device_) return;
-    link_.follow(nullptr);
+    link_.follow({});
     device_ = device;
     if (device == nullptr) return link_.stopAll();
     setGains();
-    link_.follow(this);
+    link_.follow([this] { feed(); });
 }
 
 void BoardOutput::made(const CollisionEvent& event) noexcept {
