@@ -2,7 +2,6 @@
 // Plays on the ports of another JACK client.
 #include "Live/Devices/JackDevice.h"
 #include "Live/Session/System.h"
-#include <chrono>
 #include <cstdint>
 #include <initializer_list>
 #include <mutex>

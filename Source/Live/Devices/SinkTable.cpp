@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The table of sinks, and the parser of output names such as DEVICE+BOARD:auto.
 #include "Live/Devices/SinkTable.h"
-#include "Core/Limits.h"
-#include "Live/Devices/AudioDevice.h"
 #include "Live/Pads/CoilFeed.h"
-#include "Live/Pads/HidOutput.h"
 #include "Live/Pads/PadOutput.h"
 #include "Live/Pads/ToneFeed.h"
 #include "Live/Session/BoardOutput.h"
-#include <algorithm>
-#include <array>
 
 namespace physvib {
 namespace {

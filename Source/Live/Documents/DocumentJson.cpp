@@ -2,11 +2,6 @@
 // Reads and writes strips, lanes and equalisers as JSON, and checks the fields of a mixer state against each
 // other.
 #include "Live/Documents/DocumentJson.h"
-#include "Core/Limits.h"
-#include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <string>
-#include <vector>
 
 namespace physvib {
 void visitFields(auto& v, FieldsOf<EqualisedActuator>) {

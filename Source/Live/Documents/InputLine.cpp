@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Parses an input line: determines its kind, and reads the fields with the readers of the file formats.
 #include "Live/Documents/InputLine.h"
-#include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/SceneJson.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 

@@ -3,8 +3,6 @@
 #include "Live/Documents/Mix.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/DocumentJson.h"
-#include <array>
-#include <cmath>
 
 namespace physvib {
 namespace {

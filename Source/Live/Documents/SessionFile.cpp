@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Reading and writing a session; scenes and inputs by the table in SceneFields.h.
 #include "Live/Documents/SessionFile.h"
-#include "Core/Units.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/ReadFile.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/EventColumns.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneJson.h"
-#include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 
 namespace physvib {

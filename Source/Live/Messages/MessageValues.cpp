@@ -6,12 +6,9 @@
 #include "Core/PortableMath.h"
 #include "Core/Samples.h"
 #include "Io/Text/NameList.h"
-#include "Io/Text/NumberText.h"
 #include "Scene/EventColumns.h"
 #include "Scene/PartNames.h"
 #include "Stimuli/Stimulus.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 

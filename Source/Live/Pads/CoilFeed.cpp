@@ -3,7 +3,6 @@
 // bursts, and a controller wants its reports evenly.
 #include "Live/Pads/CoilFeed.h"
 #include "Core/PortableMath.h"
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Thread that looks for a controller, follows the device's clock and writes the reports that are due.
 #include "Live/Pads/HidOutput.h"
-#include "Io/Text/CleanText.h"
 #include "Io/Text/NumberText.h"
-#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <mutex>
 #include <set>
 
 namespace physvib {

@@ -3,18 +3,12 @@
 #include "Live/Recordings/LoadRecordings.h"
 #include "Core/PortableMath.h"
 #include "Core/Samples.h"
-#include "Formats/Clip.h"
 #include "Formats/ClipFile.h"
-#include "Io/Disk/ContentHash.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/ReadFile.h"
-#include "Io/Text/NumberText.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Measure/HitExcerpt.h"
-#include "Scene/SceneLimits.h"
 #include "Stimuli/SeededRandom.h"
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace physvib {

@@ -2,10 +2,6 @@
 // The link thread: finds the board, performs the handshake, synchronises clocks, sends events.
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/OutputClock.h"
-#include "Wire/Messages.h"
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <libserialport.h>
 #include <utility>
 

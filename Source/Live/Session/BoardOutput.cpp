@@ -2,10 +2,7 @@
 // Converts session events to board events: session time to board time, places to four amplitudes, tones that
 // move or outlast a strike to segments.
 #include "Live/Session/BoardOutput.h"
-#include "Core/NameNumbers.h"
 #include "Io/Text/NumberText.h"
-#include <chrono>
-#include <cmath>
 
 namespace physvib {
 namespace {

@@ -2,13 +2,8 @@
 // Processes external inputs while a session plays (actions, controls, recordings, events, stops, lanes), and
 // logs them.
 #include "Live/Session/Scheduler.h"
-#include "Core/NameNumbers.h"
 #include "Io/Disk/ReadFile.h"
-#include "Live/Session/WorldRunner.h"
-#include <algorithm>
 #include <iterator>
-#include <utility>
-#include <variant>
 
 namespace physvib {
 

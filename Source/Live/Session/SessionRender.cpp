@@ -2,9 +2,6 @@
 // Renders a saved session: merges the events of its scene runs and inputs, then renders offline. Renders
 // stimuli in g and scales them to each actuator's full scale.
 #include "Live/Session/SessionRender.h"
-#include "Io/Text/NumberText.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 

@@ -3,10 +3,7 @@
 #include "Live/Session/WorldRunner.h"
 #include "Live/Session/Scheduler.h"
 #include "Scene/SceneValidation.h"
-#include <chrono>
 #include <iterator>
-#include <thread>
-#include <utility>
 
 namespace physvib {
 namespace {
