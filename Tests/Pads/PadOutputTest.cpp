@@ -2,9 +2,7 @@
 // A session on controllers that SDL makes up: what their motors are told is the model, to the command.
 #include "Live/Pads/PadOutput.h"
 #include "Pads/VirtualPad.h"
-#include "Scene/PadFile.h"
 #include "Support/FileTesting.h"
-#include <cmath>
 #include <future>
 #include <gtest/gtest.h>
 
@@ -82,9 +80,7 @@ TEST_F(OnePad, SilenceAndLevelZeroAreRestAtOnceAndWhatRingsComesBack) {
     EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
     device.setLevel(1.0f);
     EXPECT_TRUE(soon([&] { return !pad.isAtRest(); }));
-    RenderControl stop;
-    stop.timeNs = device.sessionNs();
-    output.posted(stop);
+    output.posted({.timeNs = device.sessionNs()}); // a stop
     EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
 }
 

@@ -2,8 +2,6 @@
 // Two tones for Switch controllers: known bytes, silence, stops and what a fit chooses. coils.py judges
 // energy and pitch over a minute.
 #include "Live/Pads/ToneFeed.h"
-#include "Live/Pads/PadReports.h"
-#include <cmath>
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -80,9 +78,7 @@ TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
     EXPECT_EQ(reports, silentReports - 1) << "radio may lose one";
     EXPECT_FALSE(last(100, 0.0f));
     EXPECT_NE(sideOf(*last(31, 1.0f), 1), neutral) << "what rings comes back";
-    RenderControl stop;
-    stop.timeNs = now + 10 * ms;
-    feed.posted(stop);
+    feed.posted({.timeNs = now + 10 * ms}); // a stop
     EXPECT_EQ(sideOf(*last(200, 1.0f), 1), neutral);
     EXPECT_FALSE(last(100, 1.0f));
 }

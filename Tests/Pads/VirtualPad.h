@@ -4,12 +4,6 @@
 #pragma once
 #include "Live/Pads/PadOutput.h"
 #include "Live/Session/System.h"
-#include <atomic>
-#include <chrono>
-#include <mutex>
-#include <string>
-#include <thread>
-#include <vector>
 
 namespace physvib {
 
