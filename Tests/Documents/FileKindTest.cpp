@@ -2,13 +2,9 @@
 // A file says what it is, wherever it says so.
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/DocumentJson.h"
-#include "Live/Documents/InputLine.h"
 #include "Live/Documents/PluginState.h"
-#include "Live/Documents/SessionFile.h"
-#include "Scene/LayoutFile.h"
 #include "Scene/SceneFile.h"
 #include "Support/FileTesting.h"
-#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace physvib {

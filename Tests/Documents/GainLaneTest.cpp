@@ -60,6 +60,10 @@ TEST(StripGroups, AFaderAndAMuteActOnTheirStripsAlone) {
     EXPECT_EQ(gainDbAt(mix, 0, 1.0), 0.0);
     EXPECT_TRUE(hasLane(mix, 1));
     EXPECT_FALSE(hasLane(mix, 0));
+    for (const Strip& felt : feltStrips(mix)) {
+        EXPECT_EQ(felt.group, -1) << "its gain has the group's already";
+        EXPECT_TRUE(felt.lane.empty());
+    }
 }
 
 TEST(StripGroups, WhoLeavesAGroupIsFeltAsBefore) {
@@ -104,17 +108,6 @@ TEST(StripGroups, NothingThatAGroupOrALaneAddsIsLouderThanTheDesk) {
     lane.groups[0].lane = {{0.0, -40.0}, {9.0, 5.0}};
     EXPECT_EQ(loudestDb(lane, 3), 5.0) << "a group's lane counts as a strip's";
     EXPECT_EQ(lowerTo(DeskLimits::of(four()), lane), "D gain 0.0 to -5.0 dB");
-}
-
-TEST(StripGroups, FeltStripsAreInNoGroupAndHaveNoLanes) {
-    Mix mix = four();
-    mix.strips[1].group = addGroup(mix, "Left hand");
-    mix.groups[0].gainDb = -6.0;
-    mix.strips[1].lane = mix.strips[2].lane = {{0.0, -20.0}};
-    for (const Strip& felt : feltStrips(mix)) {
-        EXPECT_EQ(felt.group, -1) << "its gain has the group's already";
-        EXPECT_TRUE(felt.lane.empty());
-    }
 }
 
 TEST(StripGroups, NewNamesAreTheUsualOnesThenNumbers) {

@@ -3,7 +3,6 @@
 #include "Live/Documents/SessionFile.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/ReadFile.h"
-#include "Io/Json/JsonField.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Support/FileTesting.h"
 #include "TestPlaces.h"
@@ -181,8 +180,7 @@ PhantomPanner readBack(const OrderedJson& text) {
 }
 
 PhantomPanner::Gains indexGains(const PhantomPanner& panner) {
-    CollisionEvent event;
-    event.x = 0.056, event.y = 0.07, event.z = -0.012;
+    CollisionEvent event{.x = 0.056, .y = 0.07, .z = -0.012};
     event.source.part = partNamed("index");
     PhantomPanner::Gains gains{};
     panner.gainsAt(event, gains);

@@ -16,6 +16,13 @@
 namespace physvib {
 namespace {
 
+physvib_live opened(const physvib_live_settings* settings = nullptr) {
+    physvib_live live = nullptr;
+    EXPECT_EQ(physvib_live_open("None:no device", nullptr, settings, &live), PHYSVIB_OK)
+        << physvib_live_error();
+    return live;
+}
+
 int isSilent(physvib_live live) {
     auto status = test::begun(physvib_live_status_init);
     EXPECT_EQ(physvib_live_get_status(live, &status), PHYSVIB_OK);
@@ -31,9 +38,7 @@ TEST(LiveCalls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
                           told = offsetof(physvib_live_status, board);
     std::memset(&settings, 0xAB, sizeof settings); // which would be a path
     ASSERT_EQ(physvib_live_settings_init(&settings, size), PHYSVIB_OK);
-    physvib_live live = nullptr;
-    ASSERT_EQ(physvib_live_open("None:no device", nullptr, &settings, &live), PHYSVIB_OK)
-        << physvib_live_error();
+    const physvib_live live = opened(&settings);
     physvib_live_status status;
     std::memset(&status, 0xAB, sizeof status);
     ASSERT_EQ(physvib_live_status_init(&status, told), PHYSVIB_OK);
@@ -46,9 +51,7 @@ TEST(LiveCalls, AnOlderProgramsStructureIsBegunAndToldAsFarAsItGoes) {
 }
 
 TEST(LiveCalls, AnythingButZeroSilencesAlsoByAWrongName) {
-    physvib_live live = nullptr;
-    ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK)
-        << physvib_live_error();
+    const physvib_live live = opened();
     for (const int odd : {1, -1, 2, 256, 65'536, std::numeric_limits<int>::min()}) {
         EXPECT_EQ(physvib_live_silence(live, odd), PHYSVIB_OK);
         EXPECT_EQ(isSilent(live), 1) << odd;
@@ -65,10 +68,7 @@ TEST(LiveCalls, AnythingButZeroSilencesAlsoByAWrongName) {
 }
 
 TEST(LiveCalls, SeveralDevicesAreEachTheirOwn) {
-    std::array<physvib_live, 3> lives{};
-    for (auto& live : lives)
-        ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK)
-            << physvib_live_error();
+    const std::array lives{opened(), opened(), opened()};
     EXPECT_EQ(physvib_live_silence(lives[1], 1), PHYSVIB_OK);
     EXPECT_EQ(isSilent(lives[0]) + isSilent(lives[2]), 0);
     EXPECT_EQ(isSilent(lives[1]), 1);
@@ -83,9 +83,7 @@ TEST(LiveCalls, SeveralDevicesAreEachTheirOwn) {
 }
 
 TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
-    std::array<physvib_live, 2> lives{};
-    for (auto& live : lives)
-        ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK);
+    const std::array lives{opened(), opened()};
     physvib_world world = nullptr;
     ASSERT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
     auto body = test::begun(physvib_body_init);
@@ -138,9 +136,7 @@ TEST(LiveCalls, EventsGoToTheDeviceOfTheirBody) {
 
 // As a program does that starts others without exec(): a child has none of the threads.
 TEST(LiveCalls, AChildOfForkLetsGoAndItsParentPlaysOn) {
-    physvib_live live = nullptr;
-    ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK)
-        << physvib_live_error();
+    const physvib_live live = opened();
     const auto endsWith = [](auto act) {
         const pid_t child = fork();
         if (child == 0) {
@@ -168,11 +164,9 @@ TEST(LiveCalls, AChildOfForkLetsGoAndItsParentPlaysOn) {
 }
 
 TEST(LiveCalls, WhatLeftIsKnownALatencyLater) {
-    physvib_live live = nullptr;
     auto settings = test::begun(physvib_live_settings_init);
     settings.level_db = 0.0;
-    ASSERT_EQ(physvib_live_open("None:no device", nullptr, &settings, &live), PHYSVIB_OK)
-        << physvib_live_error();
+    const physvib_live live = opened(&settings);
     auto event = test::sized<physvib_event>();
     ASSERT_EQ(physvib_event_of(nullptr, 0.0, 0.0, 0.5, &event), PHYSVIB_OK) << physvib_error();
     auto receipt = test::begun(physvib_live_receipt_init);
@@ -212,9 +206,7 @@ TEST(LiveCalls, EventsOfAnySizeAreStruckAndRendered) {
     }
     std::vector<float> whole;
     physvib_int64 played = 0;
-    physvib_live live = nullptr;
-    ASSERT_EQ(physvib_live_open("None:no device", nullptr, nullptr, &live), PHYSVIB_OK)
-        << physvib_live_error();
+    const physvib_live live = opened();
     for (const std::size_t size : test::eventSizes) {
         test::SizedEvents given{size, list};
         physvib_session session = nullptr;

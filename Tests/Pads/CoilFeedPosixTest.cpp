@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Samples for controllers with coils: silence, the guard, places and rates. coils.py judges the bytes.
 #include "Live/Pads/CoilFeed.h"
-#include "Live/Pads/HidOutput.h"
 #include "Support/FileTesting.h"
-#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <fcntl.h>
@@ -11,9 +9,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 #include <sys/stat.h>
-#include <thread>
 #include <unistd.h>
-#include <utility>
 
 namespace physvib {
 namespace {

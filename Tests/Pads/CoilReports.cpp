@@ -6,11 +6,7 @@
 // looks every millisecond. All clocks are the test's own.
 #include "Live/Pads/CoilFeed.h"
 #include "Live/Pads/ToneFeed.h"
-#include <cmath>
-#include <cstdio>
 #include <numbers>
-#include <string>
-#include <vector>
 
 using namespace physvib;
 

@@ -2,9 +2,7 @@
 // A session on controllers that SDL makes up: what their motors are told is the model, to the command.
 #include "Live/Pads/PadOutput.h"
 #include "Pads/VirtualPad.h"
-#include "Scene/PadFile.h"
 #include "Support/FileTesting.h"
-#include <cmath>
 #include <future>
 #include <gtest/gtest.h>
 
@@ -15,32 +13,27 @@ using namespace pads_testing;
 
 const std::function<bool()> always = [] { return true; };
 
-/// A sink that is ready, and follows a device.
-struct Following {
-    explicit Following(const std::string& wish)
-        : output{wish, phone()}
-        , fault{output.awaitReady(always)} {
-        device.block();
-        output.follow(&device);
-    }
-    PacedDevice device;
-    PadOutput output; // before the device it ends
-    std::string fault;
-};
-
 class Pads : public testing::Test {
 protected:
     GamePads pads{}; // before any virtual one
 };
 
-class PadsInRealTime : public Pads {};
+/// A controller, and a sink on it that is ready and follows a device.
+class OnePad : public Pads {
+protected:
+    void SetUp() override {
+        ASSERT_EQ(output.awaitReady(always), "");
+        device.block();
+        output.follow(&device);
+    }
+    VirtualPad pad{"one"};
+    PacedDevice device;
+    PadOutput output{"one@pad-generic", phone()}; // before the device it ends
+};
 
-TEST_F(PadsInRealTime, WhatTheMotorsAreToldIsTheModelToTheCommand) {
-    VirtualPad pad{"first"};
-    Following following{"first@pad-generic"};
-    ASSERT_EQ(following.fault, "");
-    PacedDevice& device = following.device;
-    PadOutput& output = following.output;
+class OnePadInRealTime : public OnePad {};
+
+TEST_F(OnePadInRealTime, WhatTheMotorsAreToldIsTheModelToTheCommand) {
     EXPECT_DOUBLE_EQ(output.latencySeconds(), 0.03);
     std::vector<CollisionEvent> events;
     for (int i = 0; i < 12; ++i)
@@ -71,20 +64,12 @@ TEST_F(PadsInRealTime, WhatTheMotorsAreToldIsTheModelToTheCommand) {
     EXPECT_TRUE(pad.isAtRest());
 }
 
-TEST_F(Pads, SilenceAndLevelZeroAreRestAtOnceAndWhatRingsComesBack) {
-    VirtualPad pad{"quiet"};
-    Following following{"quiet"};
-    ASSERT_EQ(following.fault, "");
-    PacedDevice& device = following.device;
-    PadOutput& output = following.output;
+TEST_F(OnePad, SilenceAndLevelZeroAreRestAtOnceAndWhatRingsComesBack) {
     CollisionEvent tone = hit(100 * ms, 60.0, 1.0, 0.5);
     tone.decayPerSecond = 0.0;
     tone.durationNs = 60'000 * ms;
     output.made(tone);
-    EXPECT_TRUE(soon([&] {
-        device.block();
-        return !pad.isAtRest();
-    }));
+    EXPECT_TRUE(soon([&] { return device.block(), !pad.isAtRest(); }));
     device.setSilent(true);
     EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
     device.run(device.sessionNs() + 100 * ms);
@@ -95,9 +80,7 @@ TEST_F(Pads, SilenceAndLevelZeroAreRestAtOnceAndWhatRingsComesBack) {
     EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
     device.setLevel(1.0f);
     EXPECT_TRUE(soon([&] { return !pad.isAtRest(); }));
-    RenderControl stop;
-    stop.timeNs = device.sessionNs();
-    output.posted(stop);
+    output.posted({.timeNs = device.sessionNs()}); // a stop
     EXPECT_TRUE(soon([&] { return pad.isAtRest(); }));
 }
 
@@ -125,31 +108,22 @@ TEST_F(Pads, NothingIsFeltWhenNobodyIsFollowedAndWhenTheSinkEnds) {
 }
 
 // Session time stands still meanwhile: what is felt then lies before what the motors have had already.
-TEST_F(PadsInRealTime, AfterAPauseOfTheDeviceTheyAreOnTimeAgain) {
-    VirtualPad pad{"paused"};
-    Following following{"paused"};
-    ASSERT_EQ(following.fault, "");
-    PacedDevice& device = following.device;
+TEST_F(OnePadInRealTime, AfterAPauseOfTheDeviceTheyAreOnTimeAgain) {
     device.run(600 * ms);
     std::this_thread::sleep_for(std::chrono::milliseconds{400});
     device.beganNs += 400 * ms;
     device.block();
     const std::int64_t atNs = device.sessionNs() + 50 * ms;
-    following.output.made(hit(atNs, 60.0, 1.0, 0.5));
+    output.made(hit(atNs, 60.0, 1.0, 0.5));
     device.run(atNs + 120 * ms);
     ASSERT_FALSE(pad.told().empty()) << "it waits for the time that the device stood still";
     EXPECT_GE(pad.told().front().steadyNs, device.beganNs + atNs - 60 * ms);
 }
 
-TEST_F(Pads, UnpluggedItIsLookedForAndPlaysAgainWhenItIsBack) {
-    VirtualPad pad{"loose"};
-    Following following{"loose"};
-    ASSERT_EQ(following.fault, "");
-    PacedDevice& device = following.device;
-    PadOutput& output = following.output;
+TEST_F(OnePad, UnpluggedItIsLookedForAndPlaysAgainWhenItIsBack) {
     pad.detach();
     EXPECT_TRUE(soon([&] { return !output.state().isReady; }));
-    EXPECT_EQ(output.state().trouble, "loose is gone; it is looked for");
+    EXPECT_EQ(output.state().trouble, "one is gone; it is looked for");
     output.made(hit(device.sessionNs(), 60.0, 1.0, 0.5)); // lost on nobody's account: no controller is there
     pad.attach();
     EXPECT_TRUE(soon([&] { return output.state().isReady; }));
@@ -161,20 +135,14 @@ TEST_F(Pads, UnpluggedItIsLookedForAndPlaysAgainWhenItIsBack) {
     EXPECT_EQ(output.counts().connections, 2u);
 }
 
-TEST_F(Pads, AControllerThatHangsHoldsUpNobody) {
-    VirtualPad pad{"hangs"};
-    Following following{"hangs"};
-    ASSERT_EQ(following.fault, "");
+TEST_F(OnePad, AControllerThatHangsHoldsUpNobody) {
     pad.hangs = true;
-    following.output.made(hit(50 * ms, 60.0, 1.0, 0.5));
-    EXPECT_TRUE(soon([&] {
-        following.device.block();
-        return pad.isHanging.load();
-    }));
+    output.made(hit(50 * ms, 60.0, 1.0, 0.5));
+    EXPECT_TRUE(soon([&] { return device.block(), pad.isHanging.load(); }));
     auto asked = std::async(std::launch::async, [&] {
-        const bool isReady = following.output.state().isReady;
-        following.output.follow(nullptr);
-        return isReady && following.output.counts().events == 1;
+        const bool isReady = output.state().isReady;
+        output.follow(nullptr);
+        return isReady && output.counts().events == 1;
     });
     EXPECT_EQ(asked.wait_for(std::chrono::seconds{2}), std::future_status::ready);
     pad.hangs = false;
@@ -183,19 +151,16 @@ TEST_F(Pads, AControllerThatHangsHoldsUpNobody) {
 }
 
 /// A hit that begins and ends while the controller holds up a call is felt when it returns, then the rest.
-TEST_F(Pads, AHitDuringACallThatHangsIsFeltAfterIt) {
-    VirtualPad pad{"held"};
-    Following following{"held"};
-    ASSERT_EQ(following.fault, "");
+TEST_F(OnePad, AHitDuringACallThatHangsIsFeltAfterIt) {
     pad.hangs = true;
-    following.output.made(hit(50 * ms, 60.0, 0.02, 0.5));
-    ASSERT_TRUE(soon([&] { return following.device.block(), pad.isHanging.load(); }));
-    CollisionEvent thump = hit(following.device.sessionNs() + 40 * ms, 60.0, 1.0, 0.5);
+    output.made(hit(50 * ms, 60.0, 0.02, 0.5));
+    ASSERT_TRUE(soon([&] { return device.block(), pad.isHanging.load(); }));
+    CollisionEvent thump = hit(device.sessionNs() + 40 * ms, 60.0, 1.0, 0.5);
     thump.decayPerSecond = 100.0;
-    following.output.made(thump);
-    following.device.run(600 * ms);
+    output.made(thump);
+    device.run(600 * ms);
     pad.hangs = false;
-    EXPECT_TRUE(soon([&] { return following.device.block(), pad.told().size() > 2 && pad.isAtRest(); }));
+    EXPECT_TRUE(soon([&] { return device.block(), pad.told().size() > 2 && pad.isAtRest(); }));
     double strongest = 0.0;
     for (const auto& told : pad.told()) strongest = std::max({strongest, told.low, told.high});
     EXPECT_EQ(strongest, 1.0);
@@ -216,12 +181,7 @@ TEST_F(Pads, TwoSinksTakeTwoControllersAndAThirdFindsNone) {
               0u);
 }
 
-TEST_F(PadsInRealTime, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // 200 ms are the longest command
-    VirtualPad pad{"long"};
-    Following following{"long"};
-    ASSERT_EQ(following.fault, "");
-    PacedDevice& device = following.device;
-    PadOutput& output = following.output;
+TEST_F(OnePadInRealTime, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // 200 ms are the longest command
     CollisionEvent tone = hit(50 * ms, 60.0, 1.0, 0.5);
     tone.decayPerSecond = 0.0;
     tone.durationNs = 800 * ms;
@@ -236,8 +196,6 @@ TEST_F(PadsInRealTime, AHitAndItsRepetitionsLastAsLongAsTheyRing) { // 200 ms ar
 }
 
 // What a controller does at once, however slow its profile is.
-
-using namespace pads_testing;
 
 class PadStopsInRealTime : public FolderTest {
 protected:
@@ -255,7 +213,7 @@ TEST_F(PadStopsInRealTime, SilenceAndLevelZeroDoNotWaitForTheNextCommand) {
     for (const bool isLevel : {false, true}) {
         VirtualPad pad{"slow"};
         PadOutput output{"slow@" + (folder / "slow.json").string(), phone()};
-        ASSERT_EQ(output.awaitReady([] { return true; }), "");
+        ASSERT_EQ(output.awaitReady(always), "");
         PacedDevice device;
         device.block();
         output.follow(&device);
@@ -282,7 +240,7 @@ TEST_F(PadStopsInRealTime, SilenceAndLevelZeroDoNotWaitForTheNextCommand) {
 TEST_F(PadStopsInRealTime, ASessionThatBeginsAnewIsFelt) {
     VirtualPad pad{"again"};
     PadOutput output{"again", phone()};
-    ASSERT_EQ(output.awaitReady([] { return true; }), "");
+    ASSERT_EQ(output.awaitReady(always), "");
     PacedDevice device;
     device.beganNs = PacedDevice::now() - 100'000 * ms; // it has played for long
     device.block();

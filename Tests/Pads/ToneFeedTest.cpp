@@ -2,8 +2,6 @@
 // Two tones for Switch controllers: known bytes, silence, stops and what a fit chooses. coils.py judges
 // energy and pitch over a minute.
 #include "Live/Pads/ToneFeed.h"
-#include "Live/Pads/PadReports.h"
-#include <cmath>
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -53,14 +51,12 @@ TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
     EnchanterLayout layout;
     layoutPreset("phone2", layout);
     ToneFeed feed{kind, {layout, PanningLaw::linear, 1.0, 1.0, 1.0}};
-    CollisionEvent tone;
-    tone.timeNs = 50 * ms;
-    tone.frequencyHz = 100.0;
-    tone.decayPerSecond = 0.1;
-    tone.amplitude = 0.8;
-    tone.x = 1.0;
-    tone.y = 0.5;
-    feed.made(tone);
+    feed.made({.timeNs = 50 * ms,
+               .frequencyHz = 100.0,
+               .decayPerSecond = 0.1,
+               .amplitude = 0.8,
+               .x = 1.0,
+               .y = 0.5});
     std::int64_t now = 0;
     int reports = 0;
     const auto last = [&](int milliseconds, float level) {
@@ -82,9 +78,7 @@ TEST(ToneFeed, SilenceAndAStopAreTheNextReport) {
     EXPECT_EQ(reports, silentReports - 1) << "radio may lose one";
     EXPECT_FALSE(last(100, 0.0f));
     EXPECT_NE(sideOf(*last(31, 1.0f), 1), neutral) << "what rings comes back";
-    RenderControl stop;
-    stop.timeNs = now + 10 * ms;
-    feed.posted(stop);
+    feed.posted({.timeNs = now + 10 * ms}); // a stop
     EXPECT_EQ(sideOf(*last(200, 1.0f), 1), neutral);
     EXPECT_FALSE(last(100, 1.0f));
 }

@@ -4,12 +4,6 @@
 #pragma once
 #include "Live/Pads/PadOutput.h"
 #include "Live/Session/System.h"
-#include <atomic>
-#include <chrono>
-#include <mutex>
-#include <string>
-#include <thread>
-#include <vector>
 
 namespace physvib {
 
@@ -100,14 +94,12 @@ inline PhantomPanner phone() {
 }
 
 inline CollisionEvent hit(std::int64_t timeNs, double frequencyHz, double amplitude, double x) {
-    CollisionEvent event;
-    event.timeNs = timeNs;
-    event.frequencyHz = frequencyHz;
-    event.decayPerSecond = 20.0;
-    event.amplitude = amplitude;
-    event.x = x;
-    event.y = 0.5;
-    return event;
+    return {.timeNs = timeNs,
+            .frequencyHz = frequencyHz,
+            .decayPerSecond = 20.0,
+            .amplitude = amplitude,
+            .x = x,
+            .y = 0.5};
 }
 
 /// A device that asks for a block every 5 ms, of a session that began with it.

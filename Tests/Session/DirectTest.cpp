@@ -13,16 +13,9 @@ namespace {
 using namespace test;
 
 SessionSetup stillSetup(Direct direct) {
-    auto setup = shakeTheBoxSetup(0.026);
-    setup.scene.bodies.clear();
-    setup.scene.script.clear();
-    setup.scene.joints.clear();
+    auto setup = emptyBoxSetup(0.026);
     setup.direct = direct;
     return setup;
-}
-
-PlainMessage lineMessage(std::string_view line) {
-    return std::get<PlainMessage>(readInputLine(line, {}, hostChannels).value);
 }
 
 constexpr std::string_view knock =
@@ -40,6 +33,9 @@ struct Host {
             session.render(scratch.at.data(), block, mode);
             append(signal, scratch.at.data(), block);
         }
+    }
+    Result<PlainMessage> take(std::string_view line) {
+        return router.take(std::get<PlainMessage>(readInputLine(line, {}, hostChannels).value));
     }
     /// First frame from `from` on that is louder; a sine begins with 0, but for a nanosecond.
     std::int64_t onsetFrom(std::int64_t from, float threshold = 1e-5f) const {
@@ -62,11 +58,11 @@ TEST(Direct, AMessageIsFeltABlockAndTheLimiterLaterWhateverTheBlock) {
         Host host{stillSetup(Direct::told), block};
         host.play(hostRate / block + 1);
         const std::int64_t at = host.session.timeline().framesRendered();
-        ASSERT_EQ(host.router.take(lineMessage(knock)).error, "");
+        ASSERT_TRUE(host.take(knock));
         host.play(4000 / block + 4);
         EXPECT_EQ(host.onsetFrom(0), at + block + limiterFrames() + 1) << block << ": a sine begins with 0";
         EXPECT_EQ(host.session.status().render.late, 0u);
-        const auto answer = host.router.take(lineMessage(R"({"message": "latency"})")).value;
+        const auto answer = host.take(R"({"message": "latency"})").value;
         const double direct = static_cast<double>(block + limiterFrames()) / hostRate;
         EXPECT_NEAR(std::get<double>(answer.values.at(0).value),
                     static_cast<double>(host.session.timeline().outputLatencyFrames()) / hostRate, 1e-12);
@@ -78,26 +74,18 @@ TEST(Direct, AMessageIsFeltABlockAndTheLimiterLaterWhateverTheBlock) {
 TEST(Direct, OneThatIsNotDirectIsFeltThePlayOutDelayLaterAndSaysSo) {
     Host host{stillSetup(Direct::no), 64};
     host.play(750);
-    ASSERT_EQ(host.router.take(lineMessage(knock)).error, "");
+    ASSERT_TRUE(host.take(knock));
     host.play(100);
     EXPECT_EQ(host.onsetFrom(0), 750 * 64 + host.session.timeline().outputLatencyFrames() + 1);
-    const auto answer = host.router.take(lineMessage(R"({"message": "latency"})")).value;
+    const auto answer = host.take(R"({"message": "latency"})").value;
     EXPECT_EQ(std::get<double>(answer.values.at(2).value), std::get<double>(answer.values.at(0).value));
 }
 
 TEST(Direct, WhatIsAskedForLaterIsInTimeAsWell) {
     Host host{stillSetup(Direct::told), 64};
     host.play(750);
-    ASSERT_EQ(
-        host.router
-            .take(lineMessage(R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "in": 0.25})"))
-            .error,
-        "");
-    ASSERT_EQ(
-        host.router
-            .take(lineMessage(R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "at": 2})"))
-            .error,
-        "");
+    ASSERT_TRUE(host.take(R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "in": 0.25})"));
+    ASSERT_TRUE(host.take(R"({"message": "strike", "frequency_hz": 205, "decay_per_s": 80, "at": 2})"));
     host.play(1000);
     EXPECT_EQ(host.onsetFrom(0), 750 * 64 + 12000 + 64 + limiterFrames() + 1);
     EXPECT_EQ(host.session.status().render.late, 0u);
@@ -112,14 +100,14 @@ TEST(Direct, WhatIsAskedForLaterIsInTimeAsWell) {
 TEST(Direct, AStopActsOnWhatWasStruckBeforeAndNotOnWhatFollows) {
     Host host{stillSetup(Direct::told), 64};
     host.play(750);
-    ASSERT_EQ(host.router.take(lineMessage(R"({"message": "phantom", "seconds": 3})")).error, "");
+    ASSERT_EQ(host.take(R"({"message": "phantom", "seconds": 3})").error, "");
     host.play(300);
     const std::int64_t at = host.session.timeline().framesRendered();
-    ASSERT_EQ(host.router.take(lineMessage(R"({"message": "stop"})")).error, "");
+    ASSERT_EQ(host.take(R"({"message": "stop"})").error, "");
     host.play(200);
     const std::int64_t faded = at + 64 + limiterFrames() + hostRate / 100 + 64;
     EXPECT_EQ(host.onsetFrom(faded, 1e-3f), -1) << "within 10 ms";
-    ASSERT_EQ(host.router.take(lineMessage(knock)).error, "");
+    ASSERT_TRUE(host.take(knock));
     host.play(100);
     EXPECT_GT(host.onsetFrom(faded, 1e-3f), 0);
 }
@@ -135,29 +123,15 @@ TEST(Direct, CollisionsKeepThePlayOutDelayAndWhatIsSavedIsWhatWasFelt) {
         for (int k = 0; k < 8; ++k) {
             host.play(50);
             if (!strikes) continue;
-            EXPECT_EQ(host.router.take(lineMessage(knock)).error, "");
-            EXPECT_EQ(
-                host.router
-                    .take(lineMessage(R"({"message": "path", "places": "AD", "seconds": 0.3, "in": 0.01})"))
-                    .error,
-                "");
+            EXPECT_TRUE(host.take(knock));
+            EXPECT_TRUE(host.take(R"({"message": "path", "places": "AD", "seconds": 0.3, "in": 0.01})"));
             if (k == 4)
                 EXPECT_TRUE(host.session.submit({RenderControl{0, RenderControl::Kind::gain, 1, 0.5f, {}}}));
-            if (k == 5)
-                EXPECT_EQ(host.router.take(lineMessage(R"({"message": "stop", "in": 0.2})")).error, "");
+            if (k == 5) EXPECT_EQ(host.take(R"({"message": "stop", "in": 0.2})").error, "");
         }
         host.play(200);
         EXPECT_EQ(host.session.status().render.late, 0u);
-        SavedSession saved{wallBefore(direct).run(),
-                           wallBefore(direct).panner,
-                           hostChannels,
-                           true,
-                           RendererSettings::fullScale(),
-                           0,
-                           {},
-                           {},
-                           {},
-                           {}};
+        SavedSession saved = test::saved(wallBefore(direct), {}, 0);
         saved.lengthNs = host.session.readLog(saved.log);
         const auto L = static_cast<std::size_t>(host.session.timeline().outputLatencyFrames());
         Interleaved again;
@@ -184,10 +158,7 @@ TEST(Direct, WhatIsBornInTheRenderCallIsFeltTheLimiterLaterFromTheFirstFrameOn) 
             auto setup = stillSetup(Direct::fromStart);
             setup.log = LogUse::none;
             Host host{setup, 64};
-            CollisionEvent strike;
-            strike.frequencyHz = 205.0;
-            strike.decayPerSecond = 80.0;
-            strike.amplitude = 0.5;
+            const CollisionEvent strike{.frequencyHz = 205.0, .decayPerSecond = 80.0, .amplitude = 0.5};
             ASSERT_TRUE(host.session.callback().strike(strike, frame));
             host.play(20, mode);
             EXPECT_EQ(host.onsetFrom(0), frame + limiterFrames() + 1);
@@ -212,10 +183,7 @@ TEST(Direct, ASilenceOfABornSessionLetsWhatIsStruckBehindItBeFelt) {
     auto setup = stillSetup(Direct::fromStart);
     setup.log = LogUse::none;
     Host host{setup, 64};
-    CollisionEvent strike;
-    strike.frequencyHz = 205.0;
-    strike.durationNs = 1'000'000'000;
-    strike.amplitude = 0.5;
+    const CollisionEvent strike{.frequencyHz = 205.0, .amplitude = 0.5, .durationNs = 1'000'000'000};
     ASSERT_TRUE(host.session.callback().strike(strike, 0));
     host.play(100);
     ASSERT_TRUE(host.session.callback().strike(strike, 5));

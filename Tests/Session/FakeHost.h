@@ -6,6 +6,7 @@
 #include "Scene/SceneFile.h"
 #include "Support/ClosedForm.h"
 #include <algorithm>
+#include <gtest/gtest.h>
 #include <vector>
 
 namespace physvib::test {
@@ -25,9 +26,25 @@ inline SessionSetup shakeTheBoxSetup(double longestGapSeconds, int stepsPerSecon
     return s;
 }
 
+/// The same field and materials, and nothing that moves: what is felt is what comes from outside.
+inline SessionSetup emptyBoxSetup(double longestGapSeconds) {
+    SessionSetup s = shakeTheBoxSetup(longestGapSeconds);
+    s.scene.bodies.clear();
+    s.scene.script.clear();
+    s.scene.joints.clear();
+    return s;
+}
+
 inline SavedSession saved(const SessionSetup& setup, const SessionLog& log, std::int64_t lengthNs) {
     return {setup.run(), setup.panner, setup.channels,  setup.limiterEnabled, setup.ceilings, lengthNs,
             log,         {},           setup.equalised, setup.shaping};
+}
+
+/// `text` with `to` in place of the first `from`.
+inline std::string textWith(std::string text, std::string_view from, std::string_view to) {
+    const auto at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
 inline void append(Interleaved& to, const float* const* block, int frames) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a message does: the strikes it becomes, the words of its refusals, and that what was felt is rendered
 // again.
+#include "Core/Samples.h"
 #include "FakeHost.h"
 #include "Io/Text/NameList.h"
 #include "Live/Documents/InputLine.h"
@@ -29,12 +30,8 @@ PlainMessage messageOf(std::string_view line) {
     return message != nullptr ? *message : PlainMessage{};
 }
 
-/// A scene in which nothing moves: what is felt is what messages ask for.
 SessionSetup quietSetup() {
-    auto setup = shakeTheBoxSetup(0.05);
-    setup.scene.bodies.clear();
-    setup.scene.script.clear();
-    setup.scene.joints.clear();
+    auto setup = emptyBoxSetup(0.05);
     setup.scene.materials.push_back(
         {.name = "bell", .densityKgPerSquareMetre = 850, .frequencyHz = 220, .decayPerSecond = 12});
     return setup;
@@ -47,22 +44,24 @@ std::vector<CollisionEvent> strikesOfLine(std::string_view line, const SessionSe
                                                               setup.scene.materials, setup.shaping);
 }
 
-std::string refusalOf(std::string_view line) {
-    Session session{quietSetup()};
-    session.prepare(hostRate, 512);
+/// A prepared session, and what takes its messages.
+struct Routed {
+    explicit Routed(const SessionSetup& setup = quietSetup())
+        : session{setup} {
+        session.prepare(hostRate, 512);
+    }
+    Result<PlainMessage> take(std::string_view line, const ClipSource& clips = {}) {
+        return router.take(messageOf(line), nullptr, clips);
+    }
+    Session session;
     MessageRouter router{session};
-    return router.take(messageOf(line)).error;
-}
+};
 
 TEST(Messages, APathThatLagsSaysSo) {
-    Session session{quietSetup()};
-    session.prepare(hostRate, 512);
-    MessageRouter router{session};
-    EXPECT_EQ(router.take(messageOf(R"({"message": "path", "places": "AB"})")).value.name, "")
-        << "equal follows";
-    EXPECT_EQ(router.take(messageOf(R"({"message": "path", "places": "AB", "law": "energy"})")).value.name,
-              "");
-    const auto note = router.take(messageOf(R"({"message": "path", "places": "AB", "law": "linear"})")).value;
+    Routed routed;
+    EXPECT_EQ(routed.take(R"({"message": "path", "places": "AB"})").value.name, "") << "equal follows";
+    EXPECT_EQ(routed.take(R"({"message": "path", "places": "AB", "law": "energy"})").value.name, "");
+    const auto note = routed.take(R"({"message": "path", "places": "AB", "law": "linear"})").value;
     ASSERT_EQ(note.name, "path");
     EXPECT_NE(answerLine(note).find(
                   "law: linear lags: felt at 0.16 of the way between two actuators where 0.3 is meant"),
@@ -79,12 +78,9 @@ TEST(Messages, APathOverARowIsSharedByNeighboursUnlessALawIsNamed) {
     setup.panner = {row, PanningLaw::linear, 1.0, 1.0, 1.0};
     EXPECT_EQ(strikesOfLine(path, setup)[0].spread, spreadBy(PanningLaw::neighbours));
     EXPECT_EQ(strikesOfLine(equal, setup)[0].spread, Spread::equal);
-    Session session{setup};
-    session.prepare(hostRate, 512);
-    MessageRouter router{session};
-    EXPECT_EQ(router.take(messageOf(path)).value.name, "");
-    EXPECT_NE(answerLine(router.take(messageOf(equal)).value).find("equal lags on this layout"),
-              std::string::npos);
+    Routed routed{setup};
+    EXPECT_EQ(routed.take(path).value.name, "");
+    EXPECT_NE(answerLine(routed.take(equal).value).find("equal lags on this layout"), std::string::npos);
 }
 
 TEST(Messages, ActuatorsInSpaceAreFoundByTheirLetters) {
@@ -252,46 +248,45 @@ TEST(Messages, StrokesHaveTactileBrushsTiming) {
 }
 
 TEST(Messages, RefusalsNameTheValueAndWhatWasExpected) {
-    const std::map<std::string, std::string> refusals{
-        {R"({"message": "knock"})", "\"knock\": expected one of " + listed(namesOf(messageTable))},
-        {R"({"message": "strike", "material": "cheese"})",
-         "strike: material: expected a material of the scene that vibrates, found \"cheese\""},
-        {R"({"message": "strike"})", "strike: material: expected a material, or frequency_hz"},
-        {R"({"message": "strike", "frequency_hz": 100})",
-         "strike: seconds: expected a length, or a decay: it would not end"},
-        {R"({"message": "strike", "frequency_hz": 100, "material": "x"})",
-         "strike: frequency_hz: expected either this or material"},
-        {R"({"message": "phantom", "level": 3})", "phantom: level: expected 0 to 1, found 3"},
-        {R"({"message": "phantom", "frequency_hz": 4.9})",
-         "phantom: frequency_hz: expected 5 to 20000, found 4.9"},
-        {R"({"message": "strike", "frequency_hz": 2, "seconds": 60})",
-         "strike: frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
-        {R"({"message": "strike", "frequency_hz": 2, "decay_per_s": 0.001})",
-         "strike: frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
-        {R"({"message": "phantom", "levle": 3})", "phantom: has no \"levle\""},
-        {R"({"message": "phantom", "place": "Q"})",
-         "phantom: place: expected letters from A to D, found \"Q\""},
-        {R"({"message": "phantom", "place": [1]})",
-         "phantom: place: expected x and y, or x, y and z in metres, or an actuator's letter"},
-        {R"({"message": "phantom", "place": [1, 2, 3, 4]})",
-         "phantom: place: expected x and y, or x, y and z in metres, or an actuator's letter"},
-        {R"({"message": "phantom", "law": "flat"})",
-         "phantom: law: expected one of " + listed(spreadNames) + ", found \"flat\""},
-        {R"({"message": "pattern", "pattern": "AB"})", "pattern: pattern: expected one like ABA-250 (one to "
-                                                       "three actuators, then milliseconds), found \"AB\""},
-        {R"({"message": "path", "places": "A"})", "path: places: expected 2 to 64 places, found 1"},
-        {R"({"message": "path", "places": "AA"})", "path: places: expected places that are not all the same"},
-        {R"({"message": "path", "places": "AB", "times_s": [1]})",
-         "path: times_s: expected 2 times, one per place, found 1"},
-        {R"({"message": "path", "places": "AB", "times_s": [1, 1]})",
-         "path: times_s: expected rising numbers, found 1 after 1"},
-        {R"({"message": "path", "places": "AB", "seconds": 0.1, "strokes": 9})",
-         "path: strokes: expected so few that each lasts 0.01 s, found 9 in 0.1 s"},
-        {R"({"message": "stop", "at": "soon"})", "stop: at: expected a session time, or now"},
-        {R"({"message": "stop", "at": 1, "in": 1})", "stop: in: expected either this or at"},
-        {R"({"message": "status", "at": 1})", "status: has no \"at\""},
+    Routed routed;
+    EXPECT_EQ(routed.take(R"({"message": "knock"})").error,
+              "\"knock\": expected one of " + listed(namesOf(messageTable)));
+    const std::tuple<std::string, std::string, std::string> refusals[]{
+        {"strike", R"("material": "cheese")",
+         "material: expected a material of the scene that vibrates, found \"cheese\""},
+        {"strike", "", "material: expected a material, or frequency_hz"},
+        {"strike", R"("frequency_hz": 100)", "seconds: expected a length, or a decay: it would not end"},
+        {"strike", R"("frequency_hz": 100, "material": "x")",
+         "frequency_hz: expected either this or material"},
+        {"phantom", R"("level": 3)", "level: expected 0 to 1, found 3"},
+        {"phantom", R"("frequency_hz": 4.9)", "frequency_hz: expected 5 to 20000, found 4.9"},
+        {"strike", R"("frequency_hz": 2, "seconds": 60)",
+         "frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
+        {"strike", R"("frequency_hz": 2, "decay_per_s": 0.001)",
+         "frequency_hz: expected at least 5 Hz, or a decay of at least 1 per second, found 2 Hz"},
+        {"phantom", R"("levle": 3)", "has no \"levle\""},
+        {"phantom", R"("place": "Q")", "place: expected letters from A to D, found \"Q\""},
+        {"phantom", R"("place": [1])",
+         "place: expected x and y, or x, y and z in metres, or an actuator's letter"},
+        {"phantom", R"("place": [1, 2, 3, 4])",
+         "place: expected x and y, or x, y and z in metres, or an actuator's letter"},
+        {"phantom", R"("law": "flat")", "law: expected one of " + listed(spreadNames) + ", found \"flat\""},
+        {"pattern", R"("pattern": "AB")",
+         "pattern: expected one like ABA-250 (one to three actuators, then milliseconds), found \"AB\""},
+        {"path", R"("places": "A")", "places: expected 2 to 64 places, found 1"},
+        {"path", R"("places": "AA")", "places: expected places that are not all the same"},
+        {"path", R"("places": "AB", "times_s": [1])", "times_s: expected 2 times, one per place, found 1"},
+        {"path", R"("places": "AB", "times_s": [1, 1])", "times_s: expected rising numbers, found 1 after 1"},
+        {"path", R"("places": "AB", "seconds": 0.1, "strokes": 9)",
+         "strokes: expected so few that each lasts 0.01 s, found 9 in 0.1 s"},
+        {"stop", R"("at": "soon")", "at: expected a session time, or now"},
+        {"stop", R"("at": 1, "in": 1)", "in: expected either this or at"},
+        {"status", R"("at": 1)", "has no \"at\""},
     };
-    for (const auto& [line, refusal] : refusals) EXPECT_EQ(refusalOf(line), refusal) << line;
+    for (const auto& [name, values, why] : refusals) {
+        const std::string line = R"({"message": ")" + name + (values.empty() ? "\"" : "\", ") + values + '}';
+        EXPECT_EQ(routed.take(line).error, name + ": " + why) << line;
+    }
 }
 
 /// "NAME.channels": so many channels of a tone that no other name has.
@@ -366,12 +361,10 @@ Interleaved renderedAgain(const SavedSession& session, std::int64_t delayFrames,
 double largestStep(const SessionSetup& setup, const std::string& line, double frequencyHz, double seconds) {
     Session session{setup};
     const Interleaved signal = play(session, {{0.1, line}}, seconds).signal;
-    double most = 0.0, loudest = 0.0;
-    for (std::size_t i = hostChannels; i < signal.size(); ++i) {
+    double most = 0.0;
+    for (std::size_t i = hostChannels; i < signal.size(); ++i)
         most = std::max(most, std::abs(static_cast<double>(signal[i]) - signal[i - hostChannels]));
-        loudest = std::max(loudest, std::abs(static_cast<double>(signal[i])));
-    }
-    EXPECT_GT(loudest, 0.5) << line;
+    EXPECT_GT(peakOf(signal), 0.5f) << line;
     return most / (2.0 * std::numbers::pi * frequencyHz / hostRate);
 }
 
@@ -416,28 +409,23 @@ TEST(Messages, AClipIsFeltBesideWhatSounds) {
     const auto one = play(without, {{0.1, first}}, 1.0), other = play(alone, {{0.2, second}}, 1.0),
                both = play(with, {{0.1, first}, {0.2, second}}, 1.0);
     ASSERT_EQ(both.signal.size(), one.signal.size());
-    double most = 0.0, loudest = 0.0;
-    for (std::size_t i = 0; i < both.signal.size(); ++i) {
+    double most = 0.0;
+    for (std::size_t i = 0; i < both.signal.size(); ++i)
         most =
             std::max(most, std::abs(static_cast<double>(both.signal[i]) - one.signal[i] - other.signal[i]));
-        loudest = std::max(loudest, std::abs(static_cast<double>(one.signal[i])));
-    }
     EXPECT_LE(most, 1e-6) << "the first fades, or the second is not there";
-    EXPECT_NEAR(loudest, 0.3, 0.01);
+    EXPECT_NEAR(peakOf(one.signal), 0.3f, 0.01f);
     EXPECT_EQ(both.log.clips.size(), 2u);
 }
 
 TEST(Messages, WhatWasTakenAwayOfAClipIsAnswered) {
-    Session session{quietSetup()};
-    session.prepare(hostRate, 512);
-    MessageRouter router{session};
+    Routed routed;
     const auto answerOf = [&](const std::string& note) {
-        return router.take(messageOf(R"({"message": "clip", "file": "a.1"})"), nullptr,
-                           [&](const std::string& name) {
-                               auto clip = clipOf(name);
-                               for (ContactRecording& channel : clip.value.channels) channel.note = note;
-                               return clip;
-                           });
+        return routed.take(R"({"message": "clip", "file": "a.1"})", [&](const std::string& name) {
+            auto clip = clipOf(name);
+            for (ContactRecording& channel : clip.value.channels) channel.note = note;
+            return clip;
+        });
     };
     EXPECT_EQ(answerOf("").value, PlainMessage{});
     EXPECT_EQ(answerOf("a.1: a mean of 1.00").value,
@@ -451,27 +439,20 @@ TEST(Messages, AClipIsNoCollision) { // of a scene with a gain, a method and a l
     setup.shaping.method.fixedAmplitude = 0.9;
     Session session{setup};
     const auto felt = play(session, {{0.1, R"({"message": "clip", "file": "a.1", "place": "A"})"}}, 0.8);
-    double loudest = 0.0;
-    for (const float x : felt.signal) loudest = std::max(loudest, std::abs(static_cast<double>(x)));
-    EXPECT_NEAR(loudest, 0.3, 0.01);
+    EXPECT_NEAR(peakOf(felt.signal), 0.3f, 0.01f);
     ASSERT_EQ(felt.log.strikes.size(), 1u);
     EXPECT_EQ(felt.log.strikes[0].amplitude, 1.0);
 }
 
 TEST(Messages, ClipsAreBounded) {
-    Session session{quietSetup()};
-    session.prepare(hostRate, 512);
-    MessageRouter router{session};
+    Routed routed;
     const auto clip = [&](const std::string& name, const ClipSource& source) {
-        return router
-            .take(messageOf(R"({"message": "clip", "place": "A", "file": ")" + name + "\"}"), nullptr, source)
-            .error;
+        return routed.take(R"({"message": "clip", "place": "A", "file": ")" + name + "\"}", source).error;
     };
     EXPECT_EQ(clip("a.1", {}), "clip: file: expected no clips here: no folder was given to read them from");
     EXPECT_EQ(clip("a", clipOf), "clip: file: a: cannot be read");
-    EXPECT_EQ(router.take(messageOf(R"({"message": "clip"})"), nullptr, clipOf).error,
-              "clip: file: expected a file's name");
-    EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "a.3"})"), nullptr, clipOf).error,
+    EXPECT_EQ(routed.take(R"({"message": "clip"})", clipOf).error, "clip: file: expected a file's name");
+    EXPECT_EQ(routed.take(R"({"message": "clip", "file": "a.3"})", clipOf).error,
               "clip: file: expected one channel, places, or as many channels as actuators, 4, found 3");
     for (int i = 0; i < 7; ++i) EXPECT_EQ(clip(std::to_string(i) + ".4", clipOf), "");
     EXPECT_EQ(clip("3.4", clipOf), "") << "it is kept already";
@@ -479,7 +460,7 @@ TEST(Messages, ClipsAreBounded) {
               "clip: file: expected no more than 32 channels of clips in a session, and 32000000 samples");
     EXPECT_EQ(clip("y.4", clipOf), "") << "nothing of what found no room was kept";
     SessionLog log;
-    session.readLog(log);
+    routed.session.readLog(log);
     EXPECT_EQ(log.clips.size(), 32u);
 }
 
@@ -500,27 +481,23 @@ bool othersAskDuring(const std::function<void()>& work, const std::function<void
 }
 
 TEST(Messages, NobodyWaitsForAClipThatIsReadAndBroughtToTheSessionsRate) {
-    Session session{quietSetup()};
-    session.prepare(hostRate, 512);
-    MessageRouter router{session};
-    ContactRecording minute{
+    Routed routed;
+    const ContactRecording minute{
         0.0, 44'100, std::vector<float>(300'000, 0.1f), {.path = "minute", .hash = "0123456789abcdef"}};
     EXPECT_TRUE(othersAskDuring(
         [&] {
-            EXPECT_EQ(session.keepClip({&minute, 1}), 0);
+            EXPECT_EQ(routed.session.keepClip({&minute, 1}), 0);
         },
-        [&] { session.timeline().presentNs(); }));
+        [&] { routed.session.timeline().presentNs(); }));
     std::future<std::string> other;
     const ClipSource slow = [&](const std::string&) {
-        other = std::async(std::launch::async, [&] {
-            return router.take(messageOf(R"({"message": "phantom", "in": 2})")).error;
-        });
+        other = std::async(std::launch::async,
+                           [&] { return routed.take(R"({"message": "phantom", "in": 2})").error; });
         EXPECT_EQ(other.wait_for(std::chrono::seconds{60}), std::future_status::ready)
             << "another message waits for the file";
         return Result<LoadedClip>{Failure{"read"}};
     };
-    EXPECT_EQ(router.take(messageOf(R"({"message": "clip", "file": "x"})"), nullptr, slow).error,
-              "clip: file: read");
+    EXPECT_EQ(routed.take(R"({"message": "clip", "file": "x"})", slow).error, "clip: file: read");
     EXPECT_EQ(other.get(), "");
 }
 
@@ -539,17 +516,13 @@ TEST(Messages, ATimeThatIsOverIsRefusedBeforeAFileIsRead) {
 }
 
 TEST(Messages, ClipsComeWhileBlocksAreRendered) {
-    Session session{quietSetup()};
-    session.prepare(hostRate, 512);
-    MessageRouter router{session};
+    Routed routed;
+    Session& session = routed.session;
     std::atomic<bool> isDone{false};
     std::thread door{[&] {
         for (int i = 0; i < 32; ++i)
-            EXPECT_EQ(router
-                          .take(messageOf(R"({"message": "clip", "file": ")" + std::to_string(i) + R"(.1"})"),
-                                nullptr, clipOf)
-                          .error,
-                      "");
+            EXPECT_TRUE(
+                routed.take(R"({"message": "clip", "file": ")" + std::to_string(i) + R"(.1"})", clipOf));
         isDone = true;
     }};
     Block block;
@@ -572,11 +545,7 @@ TEST(Messages, ASavedClipIsReadAsStrictlyAsTheRest) {
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(read.value.log.clips, felt.log.clips);
     const auto changed = [&](const std::string& from, const std::string& to) {
-        std::string other = text;
-        const auto at = other.find(from);
-        EXPECT_NE(at, std::string::npos) << from;
-        return readSession(at == std::string::npos ? other : other.replace(at, from.size(), to), "s.json")
-            .error;
+        return readSession(textWith(text, from, to), "s.json").error;
     };
     EXPECT_EQ(changed(R"("channel": 2)", R"("channel": 64)"),
               "s.json: clips[2].channel: expected 0 to 63, found 64");
@@ -584,11 +553,11 @@ TEST(Messages, ASavedClipIsReadAsStrictlyAsTheRest) {
     EXPECT_EQ(changed(R"("clips": [)", R"("clips": [1, )").substr(0, 18), "s.json: clips[0]: ");
     for (const char* older : {"4", "5"}) {
         Session without{setup};
-        std::string old = sessionJson(
+        const std::string now = sessionJson(
             saved(setup, play(without, {{0.1, R"({"message": "phantom"})"}}, 0.5).log, 500'000'000));
-        const std::string version = "\"physvib_session\": ";
-        old.replace(old.find(version + std::to_string(sessionFormatVersion)), version.size() + 1,
-                    version + older);
+        const std::string version = "\"physvib_session\": ",
+                          old =
+                              textWith(now, version + std::to_string(sessionFormatVersion), version + older);
         EXPECT_EQ(readSession(old, "s.json").error, "") << older;
     }
 }
@@ -637,11 +606,9 @@ TEST(Messages, OfOneMomentTheSecondActsOnTheFirst) {
                             {0.1, R"({"message": "strike", "frequency_hz": 99, "decay_per_s": 2})"}},
                            1.0);
     ASSERT_EQ(felt.events.size(), 2u);
-    double late = 0.0; // of the last half second
-    for (std::size_t i = felt.signal.size() / 2; i < felt.signal.size(); ++i)
-        late = std::max(late, static_cast<double>(std::abs(felt.signal[i])));
-    EXPECT_GT(late, 0.01) << "what came after the stop sounds";
-    EXPECT_LT(late, 0.25 * 0.5 + 0.01) << "what came before does not";
+    const float late = peakOf(std::span{felt.signal}.subspan(felt.signal.size() / 2)); // of half a second
+    EXPECT_GT(late, 0.01f) << "what came after the stop sounds";
+    EXPECT_LT(late, 0.25f * 0.5f + 0.01f) << "what came before does not";
 }
 
 TEST(Messages, QueriesAnswer) {

@@ -15,12 +15,8 @@ namespace {
 
 using namespace test;
 
-CollisionEvent hitAt(std::int64_t timeNs, double amplitude = 0.5) {
-    CollisionEvent e;
-    e.timeNs = timeNs;
-    e.frequencyHz = 205.0;
-    e.decayPerSecond = 60.0;
-    e.amplitude = amplitude;
+CollisionEvent hitAt(std::int64_t timeNs) {
+    CollisionEvent e{.timeNs = timeNs, .frequencyHz = 205.0, .decayPerSecond = 60.0, .amplitude = 0.5};
     e.source.fixture = 3;
     return e;
 }
@@ -82,14 +78,11 @@ TEST(OnsetMarks, ABlockOfTheMostOnsetsKeepsThemAll) {
 }
 
 SessionSetup quietSetup() {
-    auto setup = shakeTheBoxSetup(0.02);
+    auto setup = emptyBoxSetup(0.02);
     EnchanterLayout one;
     layoutPreset("phone1", one);
     setup.panner = {one, PanningLaw::linear, 1, setup.scene.fieldWidthMetres, setup.scene.fieldHeightMetres};
     setup.channels = 1;
-    setup.scene.bodies.clear();
-    setup.scene.script.clear();
-    setup.scene.joints.clear();
     setup.marks = MarkedOnsets::all;
     return setup;
 }
@@ -158,7 +151,6 @@ TEST(OnsetMarks, WhatIsNotPlayedIsNotMarked) {
 // Onsets of a live session, fitted one by one: all lie L after their collision, to a fiftieth of a frame,
 // although the driver is delayed at random up to 50 ms and blocks vary from 1 to 2048 frames.
 
-using namespace test;
 constexpr int seconds = 60;
 
 double hit(const CollisionEvent& e, double t) {

@@ -20,8 +20,6 @@ namespace {
 using namespace test;
 using Kind = RenderControl::Kind;
 
-auto submit(Session& session, Input input) { return session.submit(std::move(input)); }
-
 TEST(OrderOfInputs, ControlsAndStopsAreInTimeOrderHoweverTheyCame) {
     for (std::uint32_t seed = 1; seed <= 8; ++seed) {
         Random random{seed};
@@ -38,17 +36,14 @@ TEST(OrderOfInputs, ControlsAndStopsAreInTimeOrderHoweverTheyCame) {
                 if (random.below(2) == 0) {
                     Input stop{Stop{}};
                     stop.timeNs = session.status().sessionNs + (random.below(220) - 20) * 1'000'000LL;
-                    const auto at = submit(session, std::move(stop));
+                    const auto at = session.submit(std::move(stop));
                     const Timeline& time = session.timeline();
                     EXPECT_GE(at.value, std::max<std::int64_t>(0, time.presentNs() - time.toldAheadNs()))
                         << "not in what was felt";
                 } else {
-                    RenderControl gain;
-                    gain.kind = Kind::gain;
-                    gain.channel = random.below(hostChannels);
+                    RenderControl gain{.kind = Kind::gain, .channel = random.below(hostChannels)};
                     gain.value = 0.01f * static_cast<float>(random.below(100));
-                    const auto at = submit(session, {gain});
-                    EXPECT_EQ(at.error, "");
+                    EXPECT_EQ(session.submit({gain}).error, "");
                 }
             }
             session.advance();
@@ -86,10 +81,7 @@ TEST(OrderOfInputs, AClipIsKnownByWhatIsInItAndWhereItStands) {
 
 /// Six actuators in space, on a field of other proportions than their own.
 SessionSetup inSpace() {
-    SessionSetup setup = shakeTheBoxSetup(0.05);
-    setup.scene.bodies.clear();
-    setup.scene.script.clear();
-    setup.scene.joints.clear();
+    SessionSetup setup = emptyBoxSetup(0.05);
     setup.scene.materials.push_back(
         {.name = "bell", .densityKgPerSquareMetre = 850, .frequencyHz = 220, .decayPerSecond = 12});
     ActuatorLayout layout{0.2, 0.1, 6, {}};

@@ -34,10 +34,8 @@ double worstErrorMs(double drift, double latestMs, double seconds) {
     return worst;
 }
 
-TEST(SessionClock, OfCallsThatComeLateTheEarliestCounts) {
+TEST(SessionClock, FollowsACrystalAndOfCallsThatComeLateTheEarliestCounts) {
     EXPECT_LT(worstErrorMs(0, 8, 60), 2.5) << "their mean would be 4 ms off";
-}
-TEST(SessionClock, FollowsACrystal) {
     EXPECT_LT(worstErrorMs(300e-6, 0, 60), 0.2);
     EXPECT_LT(worstErrorMs(-300e-6, 0, 60), 0.2);
     EXPECT_LT(worstErrorMs(300e-6, 2, 60), 0.7);

@@ -19,8 +19,7 @@ constexpr int rate = hostRate, room = 8; // more channels than enchanters, as th
 using Kind = RenderControl::Kind;
 using Script = std::multimap<double, std::function<void(Session&)>>; // by seconds
 
-SessionSetup deskSetup() {
-    auto s = shakeTheBoxSetup(0.02);
+SessionSetup deskSetup(SessionSetup s = shakeTheBoxSetup(0.02)) {
     s.channels = room;
     return s;
 }
@@ -89,12 +88,10 @@ double energyOf(const std::vector<float>& samples, double from, double to) {
 }
 
 CollisionEvent pulse(double seconds) {
-    CollisionEvent e;
-    e.timeNs = static_cast<std::int64_t>(seconds * 1e9);
-    e.frequencyHz = 205.0;
-    e.decayPerSecond = 30.0;
-    e.amplitude = 0.5;
-    return e;
+    return {.timeNs = static_cast<std::int64_t>(seconds * 1e9),
+            .frequencyHz = 205.0,
+            .decayPerSecond = 30.0,
+            .amplitude = 0.5};
 }
 
 TEST(SessionDesk, WhatWasDoneToItRendersAgainToTheBit) {
@@ -161,12 +158,7 @@ TEST(SessionDesk, AWorldThatStandsStillMakesNoHitsAndTellsThemAllLater) {
 }
 
 TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
-    auto setup = deskSetup();
-    setup.scene = Scene{};
-    setup.scene.name = "empty";
-    setup.scene.fieldWidthMetres = 6.4;
-    setup.scene.fieldHeightMetres = 3.6;
-    Session session{setup};
+    Session session{deskSetup(emptyBoxSetup(0.02))};
     const auto live = play(session, 1.0,
                            {{0.3,
                              [](Session& s) {
@@ -184,12 +176,8 @@ TEST(SessionDesk, ATestPulseIsFeltLAfterItWasAskedFor) {
 }
 
 TEST(SessionDesk, AStrikeOfATimeOfItsOwnIsFeltLAfterItWheneverItWasTold) {
-    auto setup = deskSetup();
-    setup.scene = Scene{};
-    setup.scene.name = "empty";
-    setup.scene.fieldWidthMetres = setup.scene.fieldHeightMetres = 1.0;
-    const auto told = [&](double seconds) {
-        Session session{setup};
+    const auto told = [](double seconds) {
+        Session session{deskSetup(emptyBoxSetup(0.02))};
         auto live = play(session, 1.0,
                          {{seconds,
                            [](Session& s) {
@@ -231,12 +219,10 @@ TEST(SessionDesk, ADeskIsSavedAndABrokenOneSaysWhere) {
     EXPECT_EQ(read.levelDb, -20.0);
     EXPECT_EQ(read.dragNewtonSecondsPerScreenMetre, 12'000.0);
     EXPECT_EQ(*read.scene, setup.scene);
-    std::string older = sessionJson(saved);
-    older.replace(older.find("drag_ns_per_screen_m"), 20, "drag_ns_per_m");
-    const std::string version = "\"physvib_session\": ";
-    older.replace(older.find(version + std::to_string(sessionFormatVersion)), version.size() + 1,
-                  version + "3");
-    const auto old = readSession(older, "s.json");
+    const std::string older = textWith(sessionJson(saved), "drag_ns_per_screen_m", "drag_ns_per_m"),
+                      version = "\"physvib_session\": ";
+    const auto old =
+        readSession(textWith(older, version + std::to_string(sessionFormatVersion), version + "3"), "s.json");
     ASSERT_TRUE(old) << old.error;
     EXPECT_EQ(mixOf(old.value).dragNewtonSecondsPerScreenMetre, 12'000.0)
         << "the knob stays; what was dragged is an input, in N s";
@@ -320,10 +306,7 @@ TEST(SessionDesk, GroupsAndLanesAreSavedAndABrokenOneSaysWhere) {
     EXPECT_EQ(again.value.mix->strips, saved.mix->strips);
     EXPECT_EQ(again.value.mix->groups, saved.mix->groups);
     const auto faultOf = [&](const std::string& from, const std::string& to) {
-        std::string broken = text;
-        const auto at = broken.find(from);
-        EXPECT_NE(at, std::string::npos) << from;
-        return readSession(broken.replace(at, from.size(), to), "s.json").error;
+        return readSession(textWith(text, from, to), "s.json").error;
     };
     EXPECT_EQ(faultOf("\"group\": 1", "\"group\": 2"),
               "s.json: desk.strips[2].group: expected a group that is listed, of 1, found 2");

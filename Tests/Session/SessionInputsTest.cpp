@@ -147,10 +147,7 @@ TEST(SessionInputs, AStrikeThatCannotBeStoppedMustNotBeFarAhead) {
 }
 
 TEST(SessionInputs, AStopLeavesWhatIsDueHoweverLateTheDriver) {
-    auto setup = shakeTheBoxSetup(0.02);
-    setup.scene.bodies.clear();
-    setup.scene.joints.clear();
-    setup.scene.script.clear();
+    auto setup = emptyBoxSetup(0.02);
     setup.direct = Direct::told; // a stop acts on a time that is past in the session
     const auto felt = [&](bool isDriverLate) {
         Session session{setup};
@@ -294,10 +291,7 @@ TEST(SessionStart, AClipStaysKeptAndIsInTheNextLog) {
 }
 
 TEST(SessionStart, AnotherRatePlaysTheSameRecordings) {
-    auto setup = shakeTheBoxSetup(0.02);
-    setup.scene.bodies.clear();
-    setup.scene.joints.clear();
-    setup.scene.script.clear();
+    auto setup = emptyBoxSetup(0.02);
     std::vector<float> hum(static_cast<std::size_t>(rate));
     for (std::size_t n = 0; n < hum.size(); ++n)
         hum[n] = 0.3f * std::sin(2.0f * std::numbers::pi_v<float> * 100.0f * static_cast<float>(n) / rate);

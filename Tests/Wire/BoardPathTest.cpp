@@ -18,13 +18,9 @@ RendererSettings deskOf(PanningLaw law = PanningLaw::linear) {
 }
 
 CollisionEvent diagonal(Spread spread, double amplitude) {
-    CollisionEvent e;
-    e.durationNs = 1'000'000'000;
-    e.frequencyHz = 205.0;
-    e.amplitude = amplitude;
-    e.y = 1.0; // A
-    e.course = {1.0, 0.0, e.durationNs, 0};
-    e.spread = spread; // D
+    CollisionEvent e{.frequencyHz = 205.0, .amplitude = amplitude, .y = 1.0, .durationNs = 1'000'000'000};
+    e.course = {1.0, 0.0, e.durationNs, 0}; // from A to D
+    e.spread = spread;
     return e;
 }
 

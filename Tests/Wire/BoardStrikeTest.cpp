@@ -19,10 +19,7 @@ BoardStrike strike(std::int64_t onsetNs, int peak) {
 }
 
 TEST(BoardStrike, RoundsACollisionToTheLinksNumbers) {
-    CollisionEvent e;
-    e.frequencyHz = 205.03;
-    e.decayPerSecond = 0.001;
-    e.amplitude = 0.5;
+    CollisionEvent e{.frequencyHz = 205.03, .decayPerSecond = 0.001, .amplitude = 0.5};
     const BoardEvent b = boardEventOf(e, {1.0, 0.25, -1.0, 100.0});
     EXPECT_EQ(b.frequency16, 3280);
     EXPECT_EQ(b.decay16, 1) << "a slow decay stays one";
@@ -117,11 +114,7 @@ TEST(StrikeBacklog, WhatIsLateAnywayIsNotThinned) {
 constexpr std::int64_t second = 1'000'000'000;
 
 CollisionEvent fromAToD(double hz = 205.0) {
-    CollisionEvent e;
-    e.durationNs = second;
-    e.frequencyHz = hz;
-    e.amplitude = 0.5;
-    e.y = 1.0;
+    CollisionEvent e{.frequencyHz = hz, .amplitude = 0.5, .y = 1.0, .durationNs = second};
     e.course = {1.0, 0.0, second, 0};
     e.spread = Spread::equal;
     return e;

@@ -2,9 +2,6 @@
 // The board's clock seen through delays of 10 to 30 ms and a drift of 300 ppm, for ten minutes.
 #include "Wire/LinkClock.h"
 #include "Wire/FrameDecoder.h"
-#include "Wire/Frames.h"
-#include "Wire/Messages.h"
-#include <array>
 #include <gtest/gtest.h>
 #include <iostream>
 #include <random>

@@ -24,6 +24,41 @@ struct HardwareParameters {
     std::vector<char> bytes;
 };
 
+void ignoreAlsaMessage(const char*, int, const char*, int, const char*, ...) {}
+
+// What is loaded with the program comes first: a test replaces the clock of a device that way.
+void* alsaFunction(void* library, const char* name) {
+    void* const loadedBefore = functionIn(nullptr, name);
+    return loadedBefore != nullptr ? loadedBefore : functionIn(library, name);
+}
+
+std::optional<AlsaLibrary> loadAlsa() {
+    AlsaLibrary alsa;
+    void* const library = openLibrary("libasound.so.2");
+    bool isWhole = library != nullptr;
+#define PHYSVIB_ALSA_FIND(name)                                                                              \
+    if (isWhole) alsa.name = reinterpret_cast<decltype(alsa.name)>(alsaFunction(library, "snd_" #name));     \
+    isWhole = isWhole && alsa.name != nullptr;
+    PHYSVIB_ALSA_FUNCTIONS(PHYSVIB_ALSA_FIND)
+#undef PHYSVIB_ALSA_FIND
+    if (!isWhole) return {};
+    // A machine without a sound card would get sixty lines on stderr for one look at its devices.
+    alsa.lib_error_set_handler(ignoreAlsaMessage);
+    return alsa;
+}
+
+// Variants of devices that are listed anyway, and what plays nowhere.
+bool isLeftOut(const std::string& id) {
+    return id.empty() || id == "null" || id.starts_with("default:") || id.starts_with("sysdefault:") ||
+           id.starts_with("plughw:");
+}
+
+std::string inOneLine(const std::string& text) {
+    std::string line;
+    for (const char c : text) line += c == '\n' ? std::string{"; "} : std::string{c};
+    return line;
+}
+
 } // namespace
 
 int AlsaPcm::openAs(const std::string& id) {
@@ -65,18 +100,12 @@ std::string AlsaPcm::open(int channels, int& rateHz, int& blockFrames) {
     if (fault >= 0 && !hasFloats()) fault = openAs("plug:'" + id_ + "'");
     if (fault == -EBUSY) return "is busy: another program has it open";
     if (fault < 0) return alsa_.strerror(fault);
-    std::string error = configure(channels, rateHz, blockFrames);
-    if (!error.empty()) close();
-    return error;
-}
-
-std::string AlsaPcm::configure(int channels, int& rateHz, int& blockFrames) {
     auto rate = static_cast<unsigned int>(rateHz);
     auto period = static_cast<snd_pcm_uframes_t>(blockFrames);
-    int fault = chooseHardware(channels, rate, period);
+    fault = chooseHardware(channels, rate, period);
     if (fault >= 0) fault = chooseSoftware(period);
     if (fault >= 0) fault = alsa_.pcm_prepare(pcm_);
-    if (fault < 0) return alsa_.strerror(fault);
+    if (fault < 0) return close(), alsa_.strerror(fault);
     channels_ = channels;
     rateHz = static_cast<int>(rate);
     blockFrames = static_cast<int>(period);
@@ -148,33 +177,6 @@ AlsaPcm::Moved AlsaPcm::move(float* samples, int frames, int& done) noexcept {
 
 // Loads all of ALSA's functions, or none.
 
-namespace {
-
-void ignoreAlsaMessage(const char*, int, const char*, int, const char*, ...) {}
-
-// What is loaded with the program comes first: a test replaces the clock of a device that way.
-void* alsaFunction(void* library, const char* name) {
-    void* const loadedBefore = functionIn(nullptr, name);
-    return loadedBefore != nullptr ? loadedBefore : functionIn(library, name);
-}
-
-std::optional<AlsaLibrary> loadAlsa() {
-    AlsaLibrary alsa;
-    void* const library = openLibrary("libasound.so.2");
-    bool isWhole = library != nullptr;
-#define PHYSVIB_ALSA_FIND(name)                                                                              \
-    if (isWhole) alsa.name = reinterpret_cast<decltype(alsa.name)>(alsaFunction(library, "snd_" #name));     \
-    isWhole = isWhole && alsa.name != nullptr;
-    PHYSVIB_ALSA_FUNCTIONS(PHYSVIB_ALSA_FIND)
-#undef PHYSVIB_ALSA_FIND
-    if (!isWhole) return {};
-    // A machine without a sound card would get sixty lines on stderr for one look at its devices.
-    alsa.lib_error_set_handler(ignoreAlsaMessage);
-    return alsa;
-}
-
-} // namespace
-
 const AlsaLibrary* alsaLibrary() {
     static const std::optional<AlsaLibrary> loaded = loadAlsa();
     return loaded ? &*loaded : nullptr;
@@ -206,26 +208,16 @@ void AlsaDevice::Direction::prepare(int blockFrames) {
     for (auto& channel : channels) buffers.push_back(channel.data());
 }
 
-// `move`: a channel's sample, and the same among the interleaved ones.
-template <class Move>
-void AlsaDevice::Direction::moveEach(Move move) noexcept {
+void AlsaDevice::Direction::copy(bool isPlayed) noexcept {
     const auto step = static_cast<std::size_t>(pcm.channels());
     auto channel = channels.begin();
     for (const int k : active) {
         float* among = interleaved.data() + k;
         for (float& sample : *channel++) {
-            move(sample, *among);
+            (isPlayed ? *among : sample) = isPlayed ? sample : *among;
             among += step;
         }
     }
-}
-
-void AlsaDevice::Direction::split() noexcept {
-    moveEach([](float& sample, float& among) { sample = among; });
-}
-
-void AlsaDevice::Direction::join() noexcept {
-    moveEach([](float& sample, float& among) { among = sample; });
 }
 
 std::string AlsaDevice::open(const ChannelSet& inputs, const ChannelSet& outputs, int sampleRateHz,
@@ -282,35 +274,19 @@ void AlsaDevice::run() noexcept {
     if (inputs > 0) in_.pcm.begin();
     while (!isEnding_) {
         if (inputs > 0 && !moveAll(in_)) return;
-        in_.split();
+        in_.copy(false);
         slot_.call([&](DeviceUser* user) {
             if (user != nullptr)
                 user->block(in_.buffers.data(), inputs, out_.buffers.data(), outputs, blockFrames_);
             else
                 for (auto& channel : out_.channels) std::ranges::fill(channel, 0.0f);
         });
-        out_.join();
+        out_.copy(true);
         if (!moveAll(out_)) return;
     }
 }
 
 // Reads ALSA's list of devices.
-
-namespace {
-
-// Variants of devices that are listed anyway, and what plays nowhere.
-bool isLeftOut(const std::string& id) {
-    return id.empty() || id == "null" || id.starts_with("default:") || id.starts_with("sysdefault:") ||
-           id.starts_with("plughw:");
-}
-
-std::string inOneLine(const std::string& text) {
-    std::string line;
-    for (const char c : text) line += c == '\n' ? std::string{"; "} : std::string{c};
-    return line;
-}
-
-} // namespace
 
 std::string AlsaDriver::hintText(const void* hint, const char* kind) const {
     char* const text = alsa_.device_name_get_hint(hint, kind);

@@ -81,7 +81,6 @@ public:
 
 private:
     int openAs(const std::string& id);
-    std::string configure(int channels, int& rateHz, int& blockFrames);
     int chooseHardware(int channels, unsigned int& rateHz, snd_pcm_uframes_t& periodFrames);
     int chooseSoftware(snd_pcm_uframes_t periodFrames);
     bool hasFloats() const;
@@ -137,10 +136,7 @@ private:
         std::vector<float*> buffers;              // of these
         std::string open(const ChannelSet& wanted, const AlsaRange& range, int& rateHz, int& blockFrames);
         void prepare(int blockFrames);
-        template <class Move>
-        void moveEach(Move move) noexcept;
-        void split() noexcept; // interleaved samples into channels
-        void join() noexcept;  // and back
+        void copy(bool isPlayed) noexcept; // channels to interleaved samples, or these to channels
     };
 
     void run() noexcept;

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Opens, feeds and supervises the audio device that plays a session on the actuators.
 #include "Live/Devices/AudioOutput.h"
-#include "Live/Devices/AudioDevice.h"
-#include "Live/Devices/DeviceMeters.h"
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <thread>
 
 namespace physvib {
 

@@ -2,7 +2,6 @@
 // Plays on the ports of another JACK client.
 #include "Live/Devices/JackDevice.h"
 #include "Live/Session/System.h"
-#include <chrono>
 #include <cstdint>
 #include <initializer_list>
 #include <mutex>
@@ -152,17 +151,6 @@ std::optional<JackLibrary> loadJack() {
     return jack;
 }
 
-} // namespace
-
-const JackLibrary* jackLibrary() {
-    static const std::optional<JackLibrary> loaded = loadJack();
-    return loaded ? &*loaded : nullptr;
-}
-
-// Opens and closes clients of JACK, one at a time in the process, as JACK's library does itself.
-
-namespace {
-
 std::shared_timed_mutex openingJack;
 std::atomic<unsigned int> serversLost{0};
 
@@ -178,7 +166,29 @@ void onJackShutdown(void* server) {
     serversLost.compare_exchange_strong(lost, lost + 1);
 }
 
+// "physvib", or "physvib-01" and so on: another device of this program, or another run of it.
+bool isOurs(const std::string& client) {
+    return client == "physvib" ||
+           (client.starts_with("physvib-") && client.find_first_not_of("0123456789", 8) == std::string::npos);
+}
+
+std::vector<std::string> ownersOf(const std::vector<std::string>& ports) {
+    std::vector<std::string> owners;
+    for (const std::string& port : ports) {
+        const std::string owner = port.substr(0, port.find(':'));
+        if (!isOurs(owner) && std::ranges::find(owners, owner) == owners.end()) owners.push_back(owner);
+    }
+    return owners;
+}
+
 } // namespace
+
+const JackLibrary* jackLibrary() {
+    static const std::optional<JackLibrary> loaded = loadJack();
+    return loaded ? &*loaded : nullptr;
+}
+
+// Opens and closes clients of JACK, one at a time in the process, as JACK's library does itself.
 
 JackClient::JackClient(const JackLibrary& jack, const char* name)
     : jack_{jack} {
@@ -235,25 +245,6 @@ std::vector<std::string> JackClient::portsOf(const std::string& owner, JackPortF
 }
 
 // Lists JACK's clients by their ports.
-
-namespace {
-
-// "physvib", or "physvib-01" and so on: another device of this program, or another run of it.
-bool isOurs(const std::string& client) {
-    return client == "physvib" ||
-           (client.starts_with("physvib-") && client.find_first_not_of("0123456789", 8) == std::string::npos);
-}
-
-std::vector<std::string> ownersOf(const std::vector<std::string>& ports) {
-    std::vector<std::string> owners;
-    for (const std::string& port : ports) {
-        const std::string owner = port.substr(0, port.find(':'));
-        if (!isOurs(owner) && std::ranges::find(owners, owner) == owners.end()) owners.push_back(owner);
-    }
-    return owners;
-}
-
-} // namespace
 
 void JackDriver::scan() {
     inputs_.clear();

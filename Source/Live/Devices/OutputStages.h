@@ -153,18 +153,14 @@ public:
         : map_{map} {}
 
     /// M.
-    // The noise generator has a level of its own, so the gain is relative to it.
     void setLevels(const ListeningSettings& l) {
-        const auto gainOf = [](double db, double leastDb, double mostDb) {
-            return fromDecibels(std::clamp(db, leastDb, mostDb));
+        const auto gainOf = [](const std::vector<int>& outputs, double db, double leastDb, double mostDb) {
+            return outputs.empty() ? 0.0 : fromDecibels(std::clamp(db, leastDb, mostDb));
         };
-        noiseGain_ = l.noise.empty()
-                         ? 0.0f
-                         : static_cast<float>(gainOf(l.noiseDb, PinkNoise::leastDb, PinkNoise::mostDb) /
-                                              PinkNoise::rootMeanSquare);
-        contactGain_ = l.contacts.empty()
-                           ? 0.0f
-                           : static_cast<float>(gainOf(l.contactDb, leastContactDb, mostContactDb));
+        // the noise generator has a level of its own, so the gain is relative to it
+        noiseGain_ = static_cast<float>(gainOf(l.noise, l.noiseDb, PinkNoise::leastDb, PinkNoise::mostDb) /
+                                        PinkNoise::rootMeanSquare);
+        contactGain_ = static_cast<float>(gainOf(l.contacts, l.contactDb, leastContactDb, mostContactDb));
     }
     /// M, while R does not run.
     void prepare(int sampleRateHz, int blockFrames) {

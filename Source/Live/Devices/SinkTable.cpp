@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The table of sinks, and the parser of output names such as DEVICE+BOARD:auto.
 #include "Live/Devices/SinkTable.h"
-#include "Core/Limits.h"
-#include "Live/Devices/AudioDevice.h"
 #include "Live/Pads/CoilFeed.h"
-#include "Live/Pads/HidOutput.h"
 #include "Live/Pads/PadOutput.h"
 #include "Live/Pads/ToneFeed.h"
 #include "Live/Session/BoardOutput.h"
-#include <algorithm>
-#include <array>
 
 namespace physvib {
 namespace {
@@ -56,8 +51,9 @@ std::unique_ptr<Sink> tones(const std::string& where, const PhantomPanner& panne
     return std::make_unique<HidOutput>(where, std::make_unique<ToneFeed>(nintendo, panner));
 }
 
-std::unique_ptr<Sink> motors(const std::string& where, const PhantomPanner& panner) {
-    return std::make_unique<PadOutput>(where, panner);
+template <class Output>
+std::unique_ptr<Sink> plain(const std::string& where, const PhantomPanner& panner) {
+    return std::make_unique<Output>(where, panner);
 }
 
 /// A controller: of two motors or coils, found by itself.
@@ -70,12 +66,9 @@ constexpr SinkKind pad(std::string_view name, std::string_view title, std::strin
 constinit const std::array allKinds{
     SinkKind{"BOARD", "Four-channel board", "It plays the first four actuators beside the device", "board",
              anyBoard, "Serial port", limits::board::channels, "board: expected at most four actuators", true,
-             serialPorts,
-             [](const std::string& where, const PhantomPanner& panner) -> std::unique_ptr<Sink> {
-                 return std::make_unique<BoardOutput>(where, panner);
-             }},
+             serialPorts, plain<BoardOutput>},
     pad("PAD", "Game controller", "Its two motors follow all hits, felt together with the device",
-        "controller", gamePads, motors, false),
+        "controller", gamePads, plain<PadOutput>, false),
     pad("DUALSENSE", "DualSense by Bluetooth",
         "Its two coils play the session's samples, up to 18 ms after the device", "dualsense",
         hidPads<dualSense>, coils<dualSense, dualSenseSamples>),

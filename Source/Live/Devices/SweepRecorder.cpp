@@ -4,10 +4,6 @@
 #include "Core/Actuators/OutputGuard.h"
 #include "Core/Nonblocking.h"
 #include <algorithm>
-#include <atomic>
-#include <chrono>
-#include <memory>
-#include <thread>
 
 namespace physvib {
 namespace {

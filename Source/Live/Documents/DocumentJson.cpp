@@ -2,11 +2,6 @@
 // Reads and writes strips, lanes and equalisers as JSON, and checks the fields of a mixer state against each
 // other.
 #include "Live/Documents/DocumentJson.h"
-#include "Core/Limits.h"
-#include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <string>
-#include <vector>
 
 namespace physvib {
 void visitFields(auto& v, FieldsOf<EqualisedActuator>) {
@@ -42,6 +37,22 @@ namespace {
 void expectStrips(const JsonField& list, int count) {
     if (list.arraySize() != static_cast<std::size_t>(count))
         list.fail("expected one strip per actuator, " + std::to_string(count));
+}
+
+int readChannel(const JsonField& field, int channels) {
+    const int found = field.wholeNumber();
+    if (found < 1 || found > channels)
+        field.fail("expected a channel from 1 to " + std::to_string(channels) + ", found " +
+                   std::to_string(found));
+    return found - 1;
+}
+
+void expectFields(const JsonField& json, std::vector<std::string_view> known, std::string_view other) {
+    known.push_back("control");
+    if (!other.empty()) known.push_back(other);
+    for (const std::string& name : json.names())
+        if (std::ranges::find(known, name) == known.end())
+            json.fail("unknown field " + inQuotes(name) + ": expected " + listed(known));
 }
 
 } // namespace
@@ -115,26 +126,6 @@ Mix readMix(const JsonField& json) {
 }
 
 // Reads and writes render controls and panners as JSON, with their value ranges.
-
-namespace {
-
-int readChannel(const JsonField& field, int channels) {
-    const int found = field.wholeNumber();
-    if (found < 1 || found > channels)
-        field.fail("expected a channel from 1 to " + std::to_string(channels) + ", found " +
-                   std::to_string(found));
-    return found - 1;
-}
-
-void expectFields(const JsonField& json, std::vector<std::string_view> known, std::string_view other) {
-    known.push_back("control");
-    if (!other.empty()) known.push_back(other);
-    for (const std::string& name : json.names())
-        if (std::ranges::find(known, name) == known.end())
-            json.fail("unknown field " + inQuotes(name) + ": expected " + listed(known));
-}
-
-} // namespace
 
 PhantomPanner readKind(const JsonField& json, const DescribedPanner<LayoutDescription>& kind) {
     json.expectObject({"layout", "law", "exponent", "field_m", "grain_law", "part_law"});

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Parses an input line: determines its kind, and reads the fields with the readers of the file formats.
 #include "Live/Documents/InputLine.h"
-#include "Io/Json/JsonText.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/SceneJson.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 
@@ -58,11 +55,6 @@ LineInput readAct(const JsonField& json, const std::vector<Material>& materials,
     return SilenceControl{json["on"].truth()};
 }
 
-LineInput readLine(const JsonField& json, const std::vector<Material>& materials, int channels) {
-    json.expectObject();
-    return json.has("message") ? LineInput{readMessage(json)} : readAct(json, materials, channels);
-}
-
 constexpr std::string_view idName = "id";
 constexpr double mostId = 9'007'199'254'740'991; // larger integers are not exact in JSON
 
@@ -91,10 +83,6 @@ std::optional<double> idIn(std::string_view line) {
     return id && isId(*id) ? id : std::nullopt;
 }
 
-OrderedJson plainJson(const PlainValue& value) {
-    return std::visit([](const auto& plain) { return OrderedJson(plain); }, value);
-}
-
 bool isControl(const std::string& name) {
     return name == silenceName || std::ranges::find(controlNames, name) != controlNames.end();
 }
@@ -103,7 +91,8 @@ bool isControl(const std::string& name) {
 
 std::string answerLine(const PlainMessage& answer) {
     OrderedJson json{{"answer", answer.name}};
-    for (const NamedValue& value : answer.values) json[value.name] = plainJson(value.value);
+    for (const NamedValue& value : answer.values)
+        json[value.name] = std::visit([](const auto& plain) { return OrderedJson(plain); }, value.value);
     return jsonLine(json);
 }
 
@@ -113,7 +102,9 @@ InputLine readInputLine(std::string_view line, const std::vector<Material>& mate
         try {
             Json root = parseStrictly(line);
             id = takeId(root);
-            return readLine(JsonField(root, {}), materials, channels);
+            const JsonField json(root, {});
+            json.expectObject();
+            return json.has("message") ? LineInput{readMessage(json)} : readAct(json, materials, channels);
         } catch (const JsonError& error) {
             return Failure{error.what()};
         }

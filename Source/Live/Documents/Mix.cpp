@@ -3,8 +3,6 @@
 #include "Live/Documents/Mix.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/DocumentJson.h"
-#include <array>
-#include <cmath>
 
 namespace physvib {
 namespace {
@@ -42,6 +40,63 @@ GainLane withinTolerance(const GainLane& lane, double toleranceDb) {
         kept.push_back(lane[from]);
     }
     return kept;
+}
+
+/// Its group, or one that changes nothing.
+const StripGroup& groupOf(const Mix& mix, const Strip& strip) {
+    static const StripGroup none{};
+    return strip.group < 0 ? none : mix.groups[static_cast<std::size_t>(strip.group)];
+}
+
+/// The strip with its group's fader, mute and lane applied, in no group.
+Strip ungrouped(const Strip& strip, const StripGroup& group) {
+    Strip alone = strip;
+    alone.gainDb = sumDb({strip.gainDb, group.gainDb});
+    alone.isMuted |= group.isMuted;
+    alone.lane = thinned(sumOf(strip.lane, group.lane));
+    alone.group = -1;
+    return alone;
+}
+
+constexpr std::size_t mostTextBytes = 100'000; // 64 strips need 8 kB
+
+class Notes {
+public:
+    void lower(double& value, double most, const std::string& what) {
+        if (value <= most) return;
+        add(what + ' ' + fixedNumber(value, 1) + " to " + fixedNumber(most, 1) + " dB");
+        value = most;
+    }
+    void add(const std::string& note) {
+        constexpr int mostNotes = 8; // users do not read more
+        if (++count_ <= mostNotes) words_ += (words_.empty() ? "" : "; ") + note;
+    }
+    std::string words() const { return words_; }
+
+private:
+    std::string words_;
+    int count_ = 0;
+};
+
+/// The highest fader position at which the strip's loudest gain, with group and lanes, is `mostDb`.
+double mostFaderDb(const Mix& mix, std::size_t strip, double mostDb) {
+    if (loudestDb(mix, strip) <= mostDb) return mostStripDb;
+    return mostDb <= leastStripDb ? leastStripDb
+                                  : std::clamp(mostDb - mostAddedDb(mix, strip), leastStripDb, mostStripDb);
+}
+
+void lowerStrip(const Strip* most, bool isSilentThere, double mostDb, Strip& strip, const std::string& label,
+                Notes& notes) {
+    if (most == nullptr) {
+        notes.add(label + " without output " + std::to_string(strip.output + 1));
+        strip.output = -1;
+        return;
+    }
+    notes.lower(strip.gainDb, mostDb, label + " gain");
+    notes.lower(strip.ceilingDb, most->ceilingDb, label + " ceiling");
+    if (!isSilentThere || strip.isMuted) return;
+    notes.add(label + " muted");
+    strip.isMuted = true;
 }
 
 } // namespace
@@ -88,31 +143,11 @@ GainLane thinned(const GainLane& lane, std::size_t mostPoints) {
     return kept;
 }
 
-namespace {
-
-const StripGroup* groupOf(const Mix& mix, const Strip& strip) {
-    return strip.group < 0 ? nullptr : &mix.groups[static_cast<std::size_t>(strip.group)];
-}
-
-/// The strip with its group's fader, mute and lane applied, in no group.
-Strip ungrouped(const Strip& strip, const StripGroup& group) {
-    Strip alone = strip;
-    alone.gainDb = sumDb({strip.gainDb, group.gainDb});
-    alone.isMuted |= group.isMuted;
-    alone.lane = thinned(sumOf(strip.lane, group.lane));
-    alone.group = -1;
-    return alone;
-}
-
-} // namespace
-
 std::vector<Strip> feltStrips(const Mix& mix) {
     std::vector<Strip> felt = mix.strips;
     for (Strip& strip : felt) {
-        if (const StripGroup* group = groupOf(mix, strip)) {
-            strip.gainDb = sumDb({strip.gainDb, group->gainDb});
-            strip.isMuted |= group->isMuted;
-        }
+        if (strip.group >= 0) strip.gainDb = sumDb({strip.gainDb, groupOf(mix, strip).gainDb});
+        strip.isMuted |= groupOf(mix, strip).isMuted;
         strip.group = -1;
         strip.lane.clear();
     }
@@ -120,28 +155,24 @@ std::vector<Strip> feltStrips(const Mix& mix) {
 }
 
 bool hasLane(const Mix& mix, std::size_t strip) {
-    const StripGroup* group = groupOf(mix, mix.strips[strip]);
-    return !mix.strips[strip].lane.empty() || (group != nullptr && !group->lane.empty());
+    return !mix.strips[strip].lane.empty() || !groupOf(mix, mix.strips[strip]).lane.empty();
 }
 
 double gainDbAt(const Mix& mix, std::size_t strip, double seconds) {
     const Strip& own = mix.strips[strip];
-    const StripGroup* group = groupOf(mix, own);
-    if (group == nullptr) return sumDb({own.gainDb, laneDbAt(own.lane, seconds)});
-    return sumDb({own.gainDb, group->gainDb, laneDbAt(own.lane, seconds), laneDbAt(group->lane, seconds)});
+    const StripGroup& group = groupOf(mix, own);
+    return sumDb({own.gainDb, group.gainDb, laneDbAt(own.lane, seconds), laneDbAt(group.lane, seconds)});
 }
 
 double loudestDb(const Mix& mix, std::size_t strip) {
     const Strip& own = mix.strips[strip];
-    const StripGroup* group = groupOf(mix, own);
-    if (group == nullptr) return sumDb({own.gainDb, loudestDb(own.lane)});
-    return sumDb({own.gainDb, group->gainDb, loudestDb(own.lane), loudestDb(group->lane)});
+    const StripGroup& group = groupOf(mix, own);
+    return sumDb({own.gainDb, group.gainDb, loudestDb(own.lane), loudestDb(group.lane)});
 }
 
 double mostAddedDb(const Mix& mix, std::size_t strip) {
-    const Strip& own = mix.strips[strip];
-    const StripGroup* group = groupOf(mix, own);
-    return loudestDb(own.lane) + (group == nullptr ? 0.0 : group->gainDb + loudestDb(group->lane));
+    const StripGroup& group = groupOf(mix, mix.strips[strip]);
+    return loudestDb(mix.strips[strip].lane) + (group.gainDb + loudestDb(group.lane));
 }
 
 int addGroup(Mix& mix, std::string name) {
@@ -169,51 +200,6 @@ void removeGroup(Mix& mix, int group) {
     }
     mix.groups.erase(mix.groups.begin() + group);
 }
-
-namespace {
-
-constexpr std::size_t mostTextBytes = 100'000; // 64 strips need 8 kB
-
-class Notes {
-public:
-    void lower(double& value, double most, const std::string& what) {
-        if (value <= most) return;
-        add(what + ' ' + fixedNumber(value, 1) + " to " + fixedNumber(most, 1) + " dB");
-        value = most;
-    }
-    void add(const std::string& note) {
-        constexpr int mostNotes = 8; // users do not read more
-        if (++count_ <= mostNotes) words_ += (words_.empty() ? "" : "; ") + note;
-    }
-    std::string words() const { return words_; }
-
-private:
-    std::string words_;
-    int count_ = 0;
-};
-
-/// The highest fader position at which the strip's loudest gain, with group and lanes, is `mostDb`.
-double mostFaderDb(const Mix& mix, std::size_t strip, double mostDb) {
-    if (loudestDb(mix, strip) <= mostDb) return mostStripDb;
-    return mostDb <= leastStripDb ? leastStripDb
-                                  : std::clamp(mostDb - mostAddedDb(mix, strip), leastStripDb, mostStripDb);
-}
-
-void lowerStrip(const Strip* most, bool isSilentThere, double mostDb, Strip& strip, const std::string& label,
-                Notes& notes) {
-    if (most == nullptr) {
-        notes.add(label + " without output " + std::to_string(strip.output + 1));
-        strip.output = -1;
-        return;
-    }
-    notes.lower(strip.gainDb, mostDb, label + " gain");
-    notes.lower(strip.ceilingDb, most->ceilingDb, label + " ceiling");
-    if (!isSilentThere || strip.isMuted) return;
-    notes.add(label + " muted");
-    strip.isMuted = true;
-}
-
-} // namespace
 
 DeskLimits DeskLimits::of(const Mix& mix) {
     std::vector<Strip> strips = feltStrips(mix);

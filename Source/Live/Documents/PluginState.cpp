@@ -4,9 +4,6 @@
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/SceneFile.h"
-#include "Scene/SceneLimits.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 namespace {

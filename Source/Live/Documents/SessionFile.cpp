@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Reading and writing a session; scenes and inputs by the table in SceneFields.h.
 #include "Live/Documents/SessionFile.h"
-#include "Core/Units.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/ReadFile.h"
 #include "Live/Documents/DocumentJson.h"
 #include "Scene/EventColumns.h"
 #include "Scene/SceneEdits.h"
 #include "Scene/SceneJson.h"
-#include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
 
 namespace physvib {
@@ -46,6 +44,40 @@ SceneRun readTake(const JsonField& json, const SceneRun* before) {
     if (const std::string fault = isKnownToBeValid ? std::string{} : validate(take.whole()); !fault.empty())
         json.fail(fault);
     return take;
+}
+
+SavedSession readSessionRoot(const JsonField& root) {
+    SavedSession session;
+    readTable(root, session);
+    SessionLog& log = session.log;
+    const JsonField takes = root["takes"];
+    if (takes.arraySize() == 0) takes.fail("expected at least 1 take, found none");
+    std::size_t bodies = 0;
+    readEach(root, "takes", [&](const JsonField& item) {
+        log.takes.push_back(readTake(item, log.takes.empty() ? nullptr : &log.takes.back()));
+        bodies += bodiesOf(*log.takes.back().scene);
+        if (bodies > limits::maxTakeBodies)
+            takes.fail("expected at most " + std::to_string(limits::maxTakeBodies) + " bodies in all takes");
+    });
+    readEach(root, "controls", [&](const JsonField& item) { readTimedControl(item, session); });
+    readEach(root, "recordings", [&](const JsonField& item) { readRecordingsChange(item, log); });
+    readEach(root, "clips", [&](const JsonField& item) { readClipFile(item, log); });
+    readEach(root, "strikes", [&](const JsonField& item) { log.strikes.push_back(readStrike(item)); });
+    if (root.has("desk")) session.mix = readMix(root["desk"]);
+    return session;
+}
+
+OrderedJson takeJson(const SceneRun& take, const SceneRun* before) {
+    OrderedJson json = takeStartJson(take, before, false);
+    for (const LiveInput& input : take.inputs) json["inputs"].push_back(inputJson(input, *take.scene));
+    for (const WorldStall& stall : take.stalls) json["stalls"].push_back(writeTable(stall));
+    return json;
+}
+
+std::string besides(const std::filesystem::path& folder, const std::string& path) {
+    if (folder.empty() || syntheticSeed(path)) return path;
+    const auto whole = std::filesystem::absolute(path).lexically_normal();
+    return whole.lexically_proximate(std::filesystem::absolute(folder).lexically_normal()).string();
 }
 
 } // namespace
@@ -108,31 +140,6 @@ void readRecordingsChange(const JsonField& json, SessionLog& log) {
     log.recordings.push_back(change);
 }
 
-namespace {
-
-SavedSession readSessionRoot(const JsonField& root) {
-    SavedSession session;
-    readTable(root, session);
-    SessionLog& log = session.log;
-    const JsonField takes = root["takes"];
-    if (takes.arraySize() == 0) takes.fail("expected at least 1 take, found none");
-    std::size_t bodies = 0;
-    readEach(root, "takes", [&](const JsonField& item) {
-        log.takes.push_back(readTake(item, log.takes.empty() ? nullptr : &log.takes.back()));
-        bodies += bodiesOf(*log.takes.back().scene);
-        if (bodies > limits::maxTakeBodies)
-            takes.fail("expected at most " + std::to_string(limits::maxTakeBodies) + " bodies in all takes");
-    });
-    readEach(root, "controls", [&](const JsonField& item) { readTimedControl(item, session); });
-    readEach(root, "recordings", [&](const JsonField& item) { readRecordingsChange(item, log); });
-    readEach(root, "clips", [&](const JsonField& item) { readClipFile(item, log); });
-    readEach(root, "strikes", [&](const JsonField& item) { log.strikes.push_back(readStrike(item)); });
-    if (root.has("desk")) session.mix = readMix(root["desk"]);
-    return session;
-}
-
-} // namespace
-
 OrderedJson inputJson(const LiveInput& input, const Scene& scene) {
     return fieldsJson(input, scene.materials);
 }
@@ -142,23 +149,6 @@ OrderedJson timedControlJson(const RenderControl& control) {
     timed.update(controlJson(control));
     return timed;
 }
-
-namespace {
-
-OrderedJson takeJson(const SceneRun& take, const SceneRun* before) {
-    OrderedJson json = takeStartJson(take, before, false);
-    for (const LiveInput& input : take.inputs) json["inputs"].push_back(inputJson(input, *take.scene));
-    for (const WorldStall& stall : take.stalls) json["stalls"].push_back(writeTable(stall));
-    return json;
-}
-
-std::string besides(const std::filesystem::path& folder, const std::string& path) {
-    if (folder.empty() || syntheticSeed(path)) return path;
-    const auto whole = std::filesystem::absolute(path).lexically_normal();
-    return whole.lexically_proximate(std::filesystem::absolute(folder).lexically_normal()).string();
-}
-
-} // namespace
 
 OrderedJson clipJson(ClipFile clip, const std::filesystem::path& folder) {
     clip.file.path = besides(folder, clip.file.path);
@@ -204,20 +194,19 @@ Result<SavedSession> readSession(std::string_view text, std::string_view name) {
 
 Result<SavedSession> loadSession(const std::filesystem::path& path) {
     auto session = loadText(path, limits::maxSessionFileBytes, readSession);
-    for (const RecordingsChange& change : session.value.log.recordings)
-        for (const RecordingFile& file : change.files)
-            if (file.hash.empty() && !syntheticSeed(file.path) &&
-                !isWithin(path.parent_path(), path.parent_path() / file.path))
+    const std::filesystem::path folder = path.parent_path();
+    const auto place = [&](std::string& file) { file = (folder / file).lexically_normal().string(); };
+    for (RecordingsChange& change : session.value.log.recordings)
+        for (RecordingFile& file : change.files) {
+            if (syntheticSeed(file.path)) continue;
+            if (file.hash.empty() && !isWithin(folder, folder / file.path))
                 return Failure{path.string() +
                                ": recordings: expected a hash for a file that is not in the session's folder "
                                "or below, found none for " +
                                inQuotes(file.path)};
-    for (RecordingsChange& change : session.value.log.recordings)
-        for (RecordingFile& file : change.files)
-            if (!syntheticSeed(file.path))
-                file.path = (path.parent_path() / file.path).lexically_normal().string();
-    for (ClipFile& clip : session.value.log.clips)
-        clip.file.path = (path.parent_path() / clip.file.path).lexically_normal().string();
+            place(file.path);
+        }
+    for (ClipFile& clip : session.value.log.clips) place(clip.file.path);
     return session;
 }
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Writes a session journal line by line, and reads one up to its last complete part.
 #include "Live/Documents/DocumentJson.h"
-#include "Live/Documents/SessionFile.h"
 #include "Scene/SceneJson.h"
-#include "Scene/SceneLimits.h"
 #include "Scene/SceneValidation.h"
-#include <algorithm>
 #include <utility>
 
 namespace physvib {

@@ -3,10 +3,7 @@
 #include "Live/Messages/MessageRouter.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Text/NameList.h"
-#include "Io/Text/NumberText.h"
 #include "Live/Messages/MessageValues.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 

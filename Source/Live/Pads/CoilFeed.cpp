@@ -3,7 +3,6 @@
 // bursts, and a controller wants its reports evenly.
 #include "Live/Pads/CoilFeed.h"
 #include "Core/PortableMath.h"
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -17,6 +16,25 @@ constexpr double watchedSeconds = 2.0;  // over which the reserve is watched
 constexpr double keptSeconds = 0.0015;  // of the reserve, for blocks that come late
 constexpr std::int64_t mostStarved = 4; // periods without samples until silence is sent
 constexpr int usualRateHz = 48000;
+
+constexpr double zeros = 6.0, cutOff = 0.4833; // zeros on each side; share of the lower rate
+
+/// Weights for a centre that lies `before` input frames before the newest one.
+std::vector<float> kernelFor(double before, std::size_t taps, double cyclesPerFrame) {
+    std::vector<double> weights(taps);
+    const double half = zeros / (2.0 * cyclesPerFrame);
+    for (std::size_t k = 0; k < taps; ++k) {
+        const double t = static_cast<double>(taps - 1 - k) - before,
+                     x = 2.0 * std::numbers::pi * cyclesPerFrame * t;
+        const double window =
+            std::abs(t) < half ? 0.5 + 0.5 * portable::cos(std::numbers::pi * t / half) : 0.0;
+        weights[k] = window * (x == 0.0 ? 1.0 : portable::sin(x) / x);
+    }
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    std::vector<float> kernel;
+    for (const double weight : weights) kernel.push_back(static_cast<float>(weight / sum));
+    return kernel;
+}
 
 } // namespace
 
@@ -136,29 +154,6 @@ PadReport CoilFeed::rest() {
 double CoilFeed::laterSeconds() const noexcept { return (1.5 * format_.frames + 6.2) / format_.rateHz; }
 
 // One kernel for each position that an output frame can have between two input frames.
-
-namespace {
-
-constexpr double zeros = 6.0, cutOff = 0.4833; // zeros on each side; share of the lower rate
-
-/// Weights for a centre that lies `before` input frames before the newest one.
-std::vector<float> kernelFor(double before, std::size_t taps, double cyclesPerFrame) {
-    std::vector<double> weights(taps);
-    const double half = zeros / (2.0 * cyclesPerFrame);
-    for (std::size_t k = 0; k < taps; ++k) {
-        const double t = static_cast<double>(taps - 1 - k) - before,
-                     x = 2.0 * std::numbers::pi * cyclesPerFrame * t;
-        const double window =
-            std::abs(t) < half ? 0.5 + 0.5 * portable::cos(std::numbers::pi * t / half) : 0.0;
-        weights[k] = window * (x == 0.0 ? 1.0 : portable::sin(x) / x);
-    }
-    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-    std::vector<float> kernel;
-    for (const double weight : weights) kernel.push_back(static_cast<float>(weight / sum));
-    return kernel;
-}
-
-} // namespace
 
 RateReducer::RateReducer(int inHz, int outHz)
     : in_{inHz / std::gcd(inHz, outHz)}

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Thread that looks for a controller, follows the device's clock and writes the reports that are due.
 #include "Live/Pads/HidOutput.h"
-#include "Io/Text/CleanText.h"
 #include "Io/Text/NumberText.h"
-#include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <mutex>
 #include <set>
 
 namespace physvib {
@@ -30,6 +26,10 @@ bool isOneOf(std::span<const HidModel> models, const std::string& id, PadBus& bu
                (model.bus == PadBus::other || model.bus == bus);
     });
 }
+
+constexpr std::int64_t msNs = 1'000'000;
+constexpr std::int64_t lookNs = 250 * msNs; // search interval for a newly connected controller
+constexpr std::int64_t patienceNs = 500 * msNs;
 
 } // namespace
 
@@ -93,14 +93,6 @@ bool HidDevice::write(std::span<const std::uint8_t> report) {
     return std::filesystem::exists(place_.node, ignored) &&
            std::fwrite(report.data(), 1, report.size(), file_) == report.size();
 }
-
-namespace {
-
-constexpr std::int64_t msNs = 1'000'000;
-constexpr std::int64_t lookNs = 250 * msNs; // search interval for a newly connected controller
-constexpr std::int64_t patienceNs = 500 * msNs;
-
-} // namespace
 
 HidOutput::HidOutput(const std::string& where, std::unique_ptr<HidFeed> feed)
     : where_{where.empty() ? anyPad : where}

@@ -2,8 +2,6 @@
 // Thread that finds a controller, follows the device's clock and sends the motor commands that are due.
 #include "Live/Pads/PadOutput.h"
 #include "Io/Text/NumberText.h"
-#include <algorithm>
-#include <chrono>
 
 namespace physvib {
 namespace {

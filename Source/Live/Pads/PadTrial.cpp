@@ -29,18 +29,6 @@ double variance(const PadStep& step, double from, double to) {
     return sum;
 }
 
-class Strength {
-public:
-    explicit Strength(double restVariance)
-        : rest_{restVariance} {}
-    double operator()(const PadStep& step, double from, double to) const {
-        return std::sqrt(std::max(0.0, variance(step, from, to) - rest_));
-    }
-
-private:
-    double rest_;
-};
-
 /// The command at which a rising series of strengths crosses `level`, interpolated.
 double commandAt(double level, const std::vector<PadStep>& steps, const std::vector<double>& strengths) {
     for (std::size_t i = 0; i < steps.size(); ++i) {
@@ -102,7 +90,9 @@ Result<PadMotor> fitMotor(const std::vector<PadStep>& steps) {
     for (const PadStep& step : steps)
         rest =
             std::min(rest, variance(step, step.onSeconds + 0.6 * restSeconds, step.onSeconds + restSeconds));
-    const Strength strength{rest};
+    const auto strength = [rest](const PadStep& step, double from, double to) {
+        return std::sqrt(std::max(0.0, variance(step, from, to) - rest));
+    };
     std::vector<double> strengths;
     for (const PadStep& step : steps)
         strengths.push_back(

@@ -3,8 +3,6 @@
 #include "Live/Pads/ToneFeed.h"
 #include "Core/Pads/PadMotors.h"
 #include "Core/PortableMath.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 namespace {

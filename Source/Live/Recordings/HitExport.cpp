@@ -2,16 +2,12 @@
 // Converts hits to clip channels, panned as they were played; each channel's device data come from its
 // actuator's profile.
 #include "Live/Recordings/HitExport.h"
-#include "Core/Modes/ModeIncrements.h"
 #include "Formats/Clip.h"
 #include "Io/Disk/AtomicFile.h"
-#include "Io/Text/NumberText.h"
 #include "Io/Wav/WavSink.h"
 #include "Live/Session/OfflineRender.h"
 #include "Scene/ActuatorFile.h"
 #include "Wire/BoardPath.h"
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <list>
 

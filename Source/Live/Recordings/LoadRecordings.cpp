@@ -3,18 +3,12 @@
 #include "Live/Recordings/LoadRecordings.h"
 #include "Core/PortableMath.h"
 #include "Core/Samples.h"
-#include "Formats/Clip.h"
 #include "Formats/ClipFile.h"
-#include "Io/Disk/ContentHash.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Disk/ReadFile.h"
-#include "Io/Text/NumberText.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Measure/HitExcerpt.h"
-#include "Scene/SceneLimits.h"
 #include "Stimuli/SeededRandom.h"
-#include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace physvib {
@@ -59,66 +53,6 @@ Result<Content> readSampled(const std::filesystem::path& path) {
     return Content{std::move(sound.value), contentHash(bytes.value)};
 }
 
-} // namespace
-
-Result<LoadedClip> loadWholeClip(const std::filesystem::path& path) {
-    const auto format = clipFormatOf(path.string());
-    auto content = format ? readDrawn(path, *format) : readSampled(path);
-    if (!content) return Failure{content.error};
-    LoadedClip clip;
-    const std::string note = takeSlowPart(content.value.sound, path);
-    for (std::vector<float>& samples : content.value.sound.channels) {
-        ContactRecording& channel = clip.channels.emplace_back();
-        channel.sampleRateHz = content.value.sound.sampleRateHz;
-        channel.samples = std::move(samples);
-        channel.file.path = path.string();
-        channel.file.hash = content.value.hash;
-        channel.note = note;
-    }
-    if (clip.channels.empty() || clip.channels.front().samples.empty())
-        return Failure{path.string() + ": expected something to feel, found no samples"};
-    clip.shares = std::move(content.value.shares);
-    return clip;
-}
-
-Result<LoadedClip> ClipFolder::operator()(const std::string& name) const {
-    std::error_code failed;
-    const std::filesystem::path asked{name}, folder = std::filesystem::canonical(folder_, failed);
-    if (failed) return Failure{folder_.string() + ": expected a folder of clips"};
-    if (name.empty() || asked.is_absolute() || !isWithin(folder, folder / asked))
-        return Failure{inQuotes(name) + ": expected a file in " + folder_.string() + " or below"};
-    return loadWholeClip(std::filesystem::weakly_canonical(folder / asked, failed));
-}
-
-Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>& clips) {
-    std::vector<ContactRecording> kept;
-    LoadedClip last; // channels of one file are adjacent
-    std::size_t samples = 0;
-    for (const ClipFile& clip : clips) {
-        const std::string& path = clip.file.path;
-        if (last.channels.empty() || last.channels.front().file.path != path) {
-            auto loaded = loadWholeClip(path);
-            if (!loaded) return Failure{loaded.error};
-            last = std::move(loaded.value);
-        }
-        const std::string& hash = last.channels.front().file.hash;
-        if (hash != clip.file.hash)
-            return Failure{path + ": expected the clip with the hash " + clip.file.hash + ", found " + hash +
-                           ": it has changed since"};
-        if (clip.channel >= std::ssize(last.channels))
-            return Failure{path + ": expected at least " + std::to_string(clip.channel + 1) +
-                           " channels, found " + std::to_string(last.channels.size())};
-        kept.push_back(last.channels[static_cast<std::size_t>(clip.channel)]);
-        samples += kept.back().samples.size();
-        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples))
-            return Failure{path + ": expected at most " + std::to_string(limits::maxRecordingSamples) +
-                           " samples in all clips"};
-    }
-    return kept;
-}
-
-namespace {
-
 /// Loads one set of recordings, reusing files that other sets have loaded.
 Result<std::vector<ContactRecording>> loadSet(const std::vector<RecordingFile>& files,
                                               const LoadedRecordings& before) {
@@ -129,65 +63,11 @@ Result<std::vector<ContactRecording>> loadSet(const std::vector<RecordingFile>& 
             if (const auto found = std::ranges::find(other, file, &ContactRecording::file);
                 found != other.end())
                 known = &*found;
-        if (known != nullptr) {
-            set.push_back(*known);
-            continue;
-        }
-        auto contact = loadContact(file);
+        auto contact = known != nullptr ? Result<ContactRecording>{*known} : loadContact(file);
         if (!contact) return Failure{contact.error};
         set.push_back(std::move(contact.value));
     }
     return set;
-}
-
-std::size_t samplesOf(const std::vector<ContactRecording>& set) {
-    std::size_t count = 0;
-    for (const ContactRecording& recording : set) count += recording.samples.size();
-    return count;
-}
-
-} // namespace
-
-Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
-    LoadedRecordings all;
-    std::vector<const std::vector<RecordingFile>*> files; // one entry per set
-    std::size_t samples = 0;
-    for (const RecordingsChange& change : log.recordings) {
-        const auto same =
-            std::ranges::find_if(files, [&](const auto* known) { return *known == change.files; });
-        all.setOfChange.push_back(static_cast<std::size_t>(same - files.begin()));
-        if (same != files.end()) continue;
-        auto set = loadSet(change.files, all);
-        if (!set) return Failure{set.error};
-        samples += samplesOf(set.value);
-        if (files.size() == limits::maxRecordingSets)
-            return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSets) +
-                           " different sets"};
-        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples))
-            return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSamples) +
-                           " samples in all sets"};
-        files.push_back(&change.files);
-        all.sets.push_back(std::move(set.value));
-    }
-    auto clips = loadKeptClips(log.clips);
-    if (!clips) return Failure{clips.error};
-    all.clips = std::move(clips.value);
-    return all;
-}
-
-std::vector<std::string> recordingPaths(const SessionLog& log) {
-    std::vector<std::string> paths;
-    for (const RecordingsChange& change : log.recordings)
-        for (const RecordingFile& file : change.files) paths.push_back(file.path);
-    for (const ClipFile& clip : log.clips) paths.push_back(clip.file.path);
-    return paths;
-}
-
-namespace {
-
-void normalise(std::vector<float>& samples) {
-    const float peak = peakOf(samples);
-    for (float& x : samples) x /= peak;
 }
 
 /// A synthetic contact, for trying out what needs recordings: six partials from `frequencyHz` up and 3 ms of
@@ -305,12 +185,104 @@ double energyOfMode(double frequencyHz, double decayPerSecond, int rateHz) {
 
 } // namespace
 
+Result<LoadedClip> loadWholeClip(const std::filesystem::path& path) {
+    const auto format = clipFormatOf(path.string());
+    auto content = format ? readDrawn(path, *format) : readSampled(path);
+    if (!content) return Failure{content.error};
+    LoadedClip clip;
+    const std::string note = takeSlowPart(content.value.sound, path);
+    for (std::vector<float>& samples : content.value.sound.channels) {
+        ContactRecording& channel = clip.channels.emplace_back();
+        channel.sampleRateHz = content.value.sound.sampleRateHz;
+        channel.samples = std::move(samples);
+        channel.file.path = path.string();
+        channel.file.hash = content.value.hash;
+        channel.note = note;
+    }
+    if (clip.channels.empty() || clip.channels.front().samples.empty())
+        return Failure{path.string() + ": expected something to feel, found no samples"};
+    clip.shares = std::move(content.value.shares);
+    return clip;
+}
+
+Result<LoadedClip> ClipFolder::operator()(const std::string& name) const {
+    std::error_code failed;
+    const std::filesystem::path asked{name}, folder = std::filesystem::canonical(folder_, failed);
+    if (failed) return Failure{folder_.string() + ": expected a folder of clips"};
+    if (name.empty() || asked.is_absolute() || !isWithin(folder, folder / asked))
+        return Failure{inQuotes(name) + ": expected a file in " + folder_.string() + " or below"};
+    return loadWholeClip(std::filesystem::weakly_canonical(folder / asked, failed));
+}
+
+Result<std::vector<ContactRecording>> loadKeptClips(const std::vector<ClipFile>& clips) {
+    std::vector<ContactRecording> kept;
+    LoadedClip last; // channels of one file are adjacent
+    std::size_t samples = 0;
+    for (const ClipFile& clip : clips) {
+        const std::string& path = clip.file.path;
+        if (last.channels.empty() || last.channels.front().file.path != path) {
+            auto loaded = loadWholeClip(path);
+            if (!loaded) return Failure{loaded.error};
+            last = std::move(loaded.value);
+        }
+        const std::string& hash = last.channels.front().file.hash;
+        if (hash != clip.file.hash)
+            return Failure{path + ": expected the clip with the hash " + clip.file.hash + ", found " + hash +
+                           ": it has changed since"};
+        if (clip.channel >= std::ssize(last.channels))
+            return Failure{path + ": expected at least " + std::to_string(clip.channel + 1) +
+                           " channels, found " + std::to_string(last.channels.size())};
+        kept.push_back(last.channels[static_cast<std::size_t>(clip.channel)]);
+        samples += kept.back().samples.size();
+        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples))
+            return Failure{path + ": expected at most " + std::to_string(limits::maxRecordingSamples) +
+                           " samples in all clips"};
+    }
+    return kept;
+}
+
+Result<LoadedRecordings> loadRecordings(const SessionLog& log) {
+    LoadedRecordings all;
+    std::vector<const std::vector<RecordingFile>*> files; // one entry per set
+    std::size_t samples = 0;
+    for (const RecordingsChange& change : log.recordings) {
+        const auto same =
+            std::ranges::find_if(files, [&](const auto* known) { return *known == change.files; });
+        all.setOfChange.push_back(static_cast<std::size_t>(same - files.begin()));
+        if (same != files.end()) continue;
+        auto set = loadSet(change.files, all);
+        if (!set) return Failure{set.error};
+        for (const ContactRecording& recording : set.value) samples += recording.samples.size();
+        if (files.size() == limits::maxRecordingSets)
+            return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSets) +
+                           " different sets"};
+        if (samples > static_cast<std::size_t>(limits::maxRecordingSamples))
+            return Failure{"recordings: expected at most " + std::to_string(limits::maxRecordingSamples) +
+                           " samples in all sets"};
+        files.push_back(&change.files);
+        all.sets.push_back(std::move(set.value));
+    }
+    auto clips = loadKeptClips(log.clips);
+    if (!clips) return Failure{clips.error};
+    all.clips = std::move(clips.value);
+    return all;
+}
+
+std::vector<std::string> recordingPaths(const SessionLog& log) {
+    std::vector<std::string> paths;
+    for (const RecordingsChange& change : log.recordings)
+        for (const RecordingFile& file : change.files) paths.push_back(file.path);
+    for (const ClipFile& clip : log.clips) paths.push_back(clip.file.path);
+    return paths;
+}
+
 Result<ContactRecording> loadContact(const RecordingFile& file) {
     auto contact = readContact(file);
     if (!contact) return contact;
     if (auto fault = takeHash(contact.value.file); !fault.empty()) return Failure{fault};
     auto& [frequencyHz, rateHz, samples, source, note] = contact.value;
-    if (syntheticSeed(file.path) != linearSeed) normalise(samples); // that begins at 1, as a mode does
+    if (syntheticSeed(file.path) != linearSeed) // that begins at 1, as a mode does
+        for (const float peak = peakOf(samples); float& x : samples) x /= peak;
     if (!file.isMatched || !(file.decayPerSecond > 0.0)) return contact;
     const auto gain = static_cast<float>(
         std::sqrt(energyOfMode(frequencyHz, file.decayPerSecond, rateHz) / energyOf(samples, rateHz)));

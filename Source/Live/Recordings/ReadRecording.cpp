@@ -19,45 +19,6 @@ namespace {
 
 constexpr int clipRateHz = 48000; // sample rate of clips, which are curves
 
-} // namespace
-
-Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path) {
-    const SoundShape shape{clipRateHz, static_cast<std::int64_t>(clip.channels.size()),
-                           static_cast<std::int64_t>(clip.seconds() * clipRateHz)};
-    if (auto fault = soundFault(shape); !fault.empty()) return Failure{path.string() + ": " + fault};
-    return clipSound(clip, clipRateHz);
-}
-
-Result<SampledSound> readRecording(const std::filesystem::path& path) {
-    const auto file = openRegular(path, limits::maxRecordingFileBytes);
-    if (!file) return Failure{file.error};
-    if (const auto format = clipFormatOf(path.string())) {
-        const auto clip = loadClip(path, *format);
-        return clip ? soundOf(clip.value, path) : Failure{clip.error};
-    }
-    SoundKeeper keeper;
-    const auto fault = decodeSound(*file.value.stream, static_cast<std::int64_t>(file.value.bytes),
-                                   limits::maxRecordingSeconds, keeper);
-    if (!fault.empty()) return Failure{path.string() + ": " + fault};
-    return std::move(keeper.sound);
-}
-
-std::string takeSlowPart(SampledSound& sound, const std::filesystem::path& path, double fullScale) {
-    SlowPart taken;
-    for (auto& samples : sound.channels) taken.join(takeSlowPart(samples, sound.sampleRateHz, fullScale));
-    return taken.isAny() ? cleanLine(path.string() + ": " + taken.text()) : "";
-}
-
-std::string streamRecording(const std::filesystem::path& path, SoundTaker& taker) {
-    const auto file = openRegular(path, limits::maxMusicFileBytes);
-    if (!file) return file.error;
-    const auto fault = decodeSound(*file.value.stream, static_cast<std::int64_t>(file.value.bytes),
-                                   limits::maxMusicSeconds, taker);
-    return fault.empty() ? fault : path.string() + ": " + fault;
-}
-
-namespace {
-
 /// The file as libsndfile sees it, with a limit of the bytes read: a decoder may seek the end and go back,
 /// and a hostile file could make it do so for long.
 class ShownFile {
@@ -95,13 +56,6 @@ private:
 };
 
 ShownFile& shown(void* user) { return *static_cast<ShownFile*>(user); }
-sf_count_t lengthOf(void* user) { return shown(user).length(); }
-sf_count_t seekIn(sf_count_t offset, int whence, void* user) { return shown(user).seek(offset, whence); }
-sf_count_t readFrom(void* to, sf_count_t count, void* user) {
-    return shown(user).read(static_cast<char*>(to), count);
-}
-sf_count_t writeNothing(const void*, sf_count_t, void*) { return 0; }
-sf_count_t tellIn(void* user) { return shown(user).tell(); }
 
 struct CloseSound {
     void operator()(SNDFILE* open) const noexcept { sf_close(open); }
@@ -120,7 +74,14 @@ public:
                      sound.format,
                      0,
                      0};
-        SF_VIRTUAL_IO io{lengthOf, seekIn, readFrom, writeNothing, tellIn};
+        SF_VIRTUAL_IO io{
+            [](void* user) { return shown(user).length(); },
+            [](sf_count_t offset, int whence, void* user) { return shown(user).seek(offset, whence); },
+            [](void* to, sf_count_t count, void* user) {
+                return shown(user).read(static_cast<char*>(to), count);
+            },
+            [](const void*, sf_count_t, void*) { return sf_count_t{0}; },
+            [](void* user) { return shown(user).tell(); }};
         open_.reset(sf_open_virtual(&io, SFM_READ, &info_, &shown_));
         const int type = info_.format & SF_FORMAT_SUBMASK;
         isInteger_ = (type >= SF_FORMAT_PCM_S8 && type <= SF_FORMAT_PCM_U8) || type == SF_FORMAT_ULAW ||
@@ -217,6 +178,41 @@ std::string decodeAll(SoundPass& pass, const SoundShape& shape, SoundTaker& take
 }
 
 } // namespace
+
+Result<SampledSound> soundOf(const Clip& clip, const std::filesystem::path& path) {
+    const SoundShape shape{clipRateHz, static_cast<std::int64_t>(clip.channels.size()),
+                           static_cast<std::int64_t>(clip.seconds() * clipRateHz)};
+    if (auto fault = soundFault(shape); !fault.empty()) return Failure{path.string() + ": " + fault};
+    return clipSound(clip, clipRateHz);
+}
+
+Result<SampledSound> readRecording(const std::filesystem::path& path) {
+    const auto file = openRegular(path, limits::maxRecordingFileBytes);
+    if (!file) return Failure{file.error};
+    if (const auto format = clipFormatOf(path.string())) {
+        const auto clip = loadClip(path, *format);
+        return clip ? soundOf(clip.value, path) : Failure{clip.error};
+    }
+    SoundKeeper keeper;
+    const auto fault = decodeSound(*file.value.stream, static_cast<std::int64_t>(file.value.bytes),
+                                   limits::maxRecordingSeconds, keeper);
+    if (!fault.empty()) return Failure{path.string() + ": " + fault};
+    return std::move(keeper.sound);
+}
+
+std::string takeSlowPart(SampledSound& sound, const std::filesystem::path& path, double fullScale) {
+    SlowPart taken;
+    for (auto& samples : sound.channels) taken.join(takeSlowPart(samples, sound.sampleRateHz, fullScale));
+    return taken.isAny() ? cleanLine(path.string() + ": " + taken.text()) : "";
+}
+
+std::string streamRecording(const std::filesystem::path& path, SoundTaker& taker) {
+    const auto file = openRegular(path, limits::maxMusicFileBytes);
+    if (!file) return file.error;
+    const auto fault = decodeSound(*file.value.stream, static_cast<std::int64_t>(file.value.bytes),
+                                   limits::maxMusicSeconds, taker);
+    return fault.empty() ? fault : path.string() + ": " + fault;
+}
 
 std::string decodeSound(std::FILE& file, std::int64_t bytes, std::int64_t mostSeconds, SoundTaker& taker) {
     const auto head = readSoundHead(file, bytes);

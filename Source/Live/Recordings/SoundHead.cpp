@@ -2,9 +2,7 @@
 // Walks chunks, blocks and pages, and leaves samples alone.
 #include "Live/Recordings/ReadRecording.h"
 #include <algorithm>
-#include <array>
 #include <sndfile.h>
-#include <string_view>
 
 namespace physvib {
 namespace {

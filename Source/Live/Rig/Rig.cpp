@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Opens and closes the parts of a live rig in the order that their threads require.
 #include "Live/Rig/Rig.h"
-#include "Live/Devices/DeviceMeters.h"
-#include "Live/Session/System.h"
-#include <algorithm>
-#include <utility>
 
 namespace physvib {
 

@@ -2,10 +2,6 @@
 // The link thread: finds the board, performs the handshake, synchronises clocks, sends events.
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/OutputClock.h"
-#include "Wire/Messages.h"
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <libserialport.h>
 #include <utility>
 
@@ -58,6 +54,33 @@ constexpr std::int64_t lineNs(std::size_t bytes) {
     return static_cast<std::int64_t>(bytes) * 10 * second / wire::lineBitsPerSecond;
 }
 
+constexpr int stLinkVendor = 0x0483;
+
+struct PortDeleter {
+    void operator()(sp_port* port) const { sp_free_port(port); }
+};
+using Port = std::unique_ptr<sp_port, PortDeleter>;
+
+class PortLine final : public SerialLine {
+public:
+    explicit PortLine(Port port)
+        : port_{std::move(port)} {}
+    ~PortLine() override { sp_close(port_.get()); }
+    int read(std::span<std::uint8_t> bytes, int milliseconds) override {
+        return sp_blocking_read_next(port_.get(), bytes.data(), bytes.size(),
+                                     static_cast<unsigned>(milliseconds));
+    }
+    bool write(std::span<const std::uint8_t> bytes) override {
+        return sp_blocking_write(port_.get(), bytes.data(), bytes.size(), 50) ==
+               static_cast<int>(bytes.size());
+    }
+
+private:
+    Port port_;
+};
+
+std::string textOr(const char* text, const char* otherwise) { return text != nullptr ? text : otherwise; }
+
 } // namespace
 
 std::int64_t BoardLink::nowNs() noexcept { return steadyNs(); }
@@ -79,9 +102,9 @@ void BoardLink::setGains(const std::array<double, limits::board::channels>& gain
     order([&](Orders& o) { o.gains = message; });
 }
 
-void BoardLink::follow(BoardSource* source) {
-    const std::scoped_lock lock{sourceMutex_};
-    source_ = source;
+void BoardLink::follow(std::function<void()> feed) {
+    const std::scoped_lock lock{feedMutex_};
+    feed_ = std::move(feed);
 }
 
 std::string BoardLink::awaitReady(const std::function<bool()>& keepGoing) const {
@@ -112,16 +135,14 @@ void BoardLink::run() {
             obey();
             if (line_) keepInTouch();
         }
-        askSource();
+        {
+            const std::scoped_lock lock{feedMutex_};
+            if (feed_) feed_();
+        }
         sendStrikes();
         publish();
     }
     if (line_ && now_.state != State::greeting) send(wire::StopAll{});
-}
-
-void BoardLink::askSource() {
-    const std::scoped_lock lock{sourceMutex_};
-    if (source_ != nullptr) source_->feed();
 }
 
 // Opens the next port; the handshake follows.
@@ -309,10 +330,8 @@ double BoardLink::transitMs() const {
     return 1e3 * clock_.worstDelaySeconds() + now_.board.aheadFrames * 1e3 / limits::board::sampleRateHz;
 }
 
-double BoardLink::outputLatencyMs() const { return transitMs() + marginMs; }
-
 void BoardLink::publish() {
-    if (clock_.isReady()) now_.outputLatencyMs = outputLatencyMs();
+    if (clock_.isReady()) now_.outputLatencyMs = transitMs() + marginMs;
     now_.driftPpm = clock_.drift() * 1e6;
     now_.thinned = backlog_.thinned() + strikes_.overflows();
     now_.badFrames = decoder_.bad();
@@ -329,37 +348,6 @@ void BoardLink::send(const Message& message) {
 }
 
 // Serial ports by libserialport.
-
-namespace {
-
-constexpr int stLinkVendor = 0x0483;
-
-struct PortDeleter {
-    void operator()(sp_port* port) const { sp_free_port(port); }
-};
-using Port = std::unique_ptr<sp_port, PortDeleter>;
-
-class PortLine final : public SerialLine {
-public:
-    explicit PortLine(Port port)
-        : port_{std::move(port)} {}
-    ~PortLine() override { sp_close(port_.get()); }
-    int read(std::span<std::uint8_t> bytes, int milliseconds) override {
-        return sp_blocking_read_next(port_.get(), bytes.data(), bytes.size(),
-                                     static_cast<unsigned>(milliseconds));
-    }
-    bool write(std::span<const std::uint8_t> bytes) override {
-        return sp_blocking_write(port_.get(), bytes.data(), bytes.size(), 50) ==
-               static_cast<int>(bytes.size());
-    }
-
-private:
-    Port port_;
-};
-
-std::string textOr(const char* text, const char* otherwise) { return text != nullptr ? text : otherwise; }
-
-} // namespace
 
 std::vector<SerialPortName> listSerialPorts() {
     std::vector<SerialPortName> names;

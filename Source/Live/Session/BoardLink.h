@@ -78,14 +78,6 @@ struct BoardLinkStatus {
     std::uint64_t connections = 0, badFrames = 0;
 };
 
-/// Callback that the link thread calls for events and orders, about once a millisecond.
-class BoardSource {
-public:
-    virtual ~BoardSource() = default;
-    /// Link thread. May push, order, and send segments. Must be quick.
-    virtual void feed() = 0;
-};
-
 class BoardLink {
 public:
     static constexpr std::int64_t sendAheadMs = 80; // the board stores 64 events, 58 are sent in this
@@ -119,9 +111,10 @@ public:
     void sendSegment(const BoardSegment& segment, bool isCoarse);
     void refuseSegment() noexcept { ++now_.refused; }
 
-    /// Sets the source that the link thread calls, or none (null); only that source may push. On return the
-    /// link thread is not inside the previous one. M.
-    void follow(BoardSource* source);
+    /// Sets what the link thread calls about once a millisecond for events and orders, or nothing (empty).
+    /// Only that may push, order and send segments, and it must be quick. On return the link thread is not
+    /// inside the previous one. M.
+    void follow(std::function<void()> feed);
 
     void stopAll() {
         order([](Orders& o) { o.stopAll = true; });
@@ -151,7 +144,6 @@ private:
         change(orders_);
     }
     void run();
-    void askSource();
     void search();
     void disconnect(const std::string& why);
     void receive();
@@ -164,15 +156,14 @@ private:
     void sendStrikes();
     void publish();
     double transitMs() const;
-    double outputLatencyMs() const;
     bool isLineFree(std::int64_t now) const;
     template <class Message>
     void send(const Message& message);
 
     const std::string wanted_;
     EventQueue<BoardStrike, 1024> strikes_;
-    std::mutex sourceMutex_; // guards source_, locked first
-    BoardSource* source_ = nullptr;
+    std::mutex feedMutex_; // guards feed_, locked first
+    std::function<void()> feed_;
     mutable std::mutex mutex_; // guards orders_ and published_
     Orders orders_;
     BoardLinkStatus published_;

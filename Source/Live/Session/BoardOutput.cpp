@@ -2,10 +2,7 @@
 // Converts session events to board events: session time to board time, places to four amplitudes, tones that
 // move or outlast a strike to segments.
 #include "Live/Session/BoardOutput.h"
-#include "Core/NameNumbers.h"
 #include "Io/Text/NumberText.h"
-#include <chrono>
-#include <cmath>
 
 namespace physvib {
 namespace {
@@ -13,6 +10,53 @@ namespace {
 constexpr std::int64_t secondNs = 1'000'000'000;
 constexpr std::int64_t mostLateNs = 40'000'000; // the length of a segment: one this late has passed entirely
 constexpr std::int64_t spareNs = 2'000'000;     // with less a longer segment is made: the next one is in time
+
+using State = BoardLinkStatus::State;
+constexpr std::int64_t newsWithinNs = 1'500'000'000; // telemetry is sent once a second
+
+std::string count(std::uint64_t n) { return std::to_string(n); }
+
+std::string whereItPlays(const BoardLinkStatus& s) {
+    if (s.state == State::ready)
+        return s.port + ": ready, needs " + fixedNumber(s.outputLatencyMs, 0) + " ms, " + count(s.sent) +
+               " sent, " + count(s.thinned) + " thinned";
+    if (!s.trouble.empty()) return s.trouble;
+    return s.state == State::searching ? "looking for a board" : s.port + ": connecting";
+}
+
+std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
+    const auto& t = s.telemetry;
+    if (s.state != State::ready) return {{"Board", s.trouble.empty() ? "looking for it" : s.trouble, true}};
+    std::vector<SinkState::Fact> facts{
+        {"Board", "ready, its clock " + fixedNumber(s.driftPpm, 0) + " ppm off"},
+        {"Link", count(s.sent) + " sent, " + count(s.thinned) + " thinned, " + count(s.refused) + " refused",
+         s.thinned + s.refused > 0}};
+    if (s.segments > 0)
+        facts.push_back({"What moves",
+                         count(s.segments) + " segments sent, " + count(s.coarseSegments) + " of them coarse",
+                         s.coarseSegments > 0});
+    facts.push_back(
+        {"On board",
+         count(t.played) + " played, " + count(t.late) + " late, " + count(t.dropped + t.lost) + " lost",
+         t.late + t.dropped + t.lost > 0});
+    if (t.guarded > 0) facts.push_back({"Guard of the board", "acted " + count(t.guarded) + " times", true});
+    return facts;
+}
+
+// Without a port of its own the link tries one after the other: what it says of each would only flicker.
+std::string troubleOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
+    if (s.state == State::ready) {
+        if (s.outputLatencyMs <= 1e3 * latencySeconds) return {};
+        return "The board needs its strikes more than " + fixedNumber(1e3 * latencySeconds, 0) +
+               " ms before they are felt: some come late there";
+    }
+    const bool wasReady = s.connections > 0;
+    if (port == anyBoard)
+        return wasReady ? "The board is gone; it is looked for on every serial port"
+                        : "No board answers on any serial port";
+    return "The board at " + port + (wasReady ? " is gone" : " does not answer") +
+           "; it is looked for twice a second" + (s.trouble.empty() ? "" : " (" + s.trouble + ")");
+}
 
 } // namespace
 
@@ -33,11 +77,11 @@ std::string BoardOutput::awaitReady(const std::function<bool()>& keepGoing) {
 
 void BoardOutput::follow(OutputClock* device) {
     if (device == device_) return;
-    link_.follow(nullptr);
+    link_.follow({});
     device_ = device;
     if (device == nullptr) return link_.stopAll();
     setGains();
-    link_.follow(this);
+    link_.follow([this] { feed(); });
 }
 
 void BoardOutput::made(const CollisionEvent& event) noexcept {
@@ -178,57 +222,6 @@ PathGains::Gains BoardOutput::gainsAt(const CollisionEvent& event) const noexcep
     panner_.gainsAt(event, gains);
     return {gains[0], gains[1], gains[2], gains[3]};
 }
-
-namespace {
-
-using State = BoardLinkStatus::State;
-constexpr std::int64_t newsWithinNs = 1'500'000'000; // telemetry is sent once a second
-
-std::string count(std::uint64_t n) { return std::to_string(n); }
-
-std::string whereItPlays(const BoardLinkStatus& s) {
-    if (s.state == State::ready)
-        return s.port + ": ready, needs " + fixedNumber(s.outputLatencyMs, 0) + " ms, " + count(s.sent) +
-               " sent, " + count(s.thinned) + " thinned";
-    if (!s.trouble.empty()) return s.trouble;
-    return s.state == State::searching ? "looking for a board" : s.port + ": connecting";
-}
-
-std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
-    const auto& t = s.telemetry;
-    if (s.state != State::ready) return {{"Board", s.trouble.empty() ? "looking for it" : s.trouble, true}};
-    std::vector<SinkState::Fact> facts{
-        {"Board", "ready, its clock " + fixedNumber(s.driftPpm, 0) + " ppm off"},
-        {"Link", count(s.sent) + " sent, " + count(s.thinned) + " thinned, " + count(s.refused) + " refused",
-         s.thinned + s.refused > 0}};
-    if (s.segments > 0)
-        facts.push_back({"What moves",
-                         count(s.segments) + " segments sent, " + count(s.coarseSegments) + " of them coarse",
-                         s.coarseSegments > 0});
-    facts.push_back(
-        {"On board",
-         count(t.played) + " played, " + count(t.late) + " late, " + count(t.dropped + t.lost) + " lost",
-         t.late + t.dropped + t.lost > 0});
-    if (t.guarded > 0) facts.push_back({"Guard of the board", "acted " + count(t.guarded) + " times", true});
-    return facts;
-}
-
-// Without a port of its own the link tries one after the other: what it says of each would only flicker.
-std::string troubleOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
-    if (s.state == State::ready) {
-        if (s.outputLatencyMs <= 1e3 * latencySeconds) return {};
-        return "The board needs its strikes more than " + fixedNumber(1e3 * latencySeconds, 0) +
-               " ms before they are felt: some come late there";
-    }
-    const bool wasReady = s.connections > 0;
-    if (port == anyBoard)
-        return wasReady ? "The board is gone; it is looked for on every serial port"
-                        : "No board answers on any serial port";
-    return "The board at " + port + (wasReady ? " is gone" : " does not answer") +
-           "; it is looked for twice a second" + (s.trouble.empty() ? "" : " (" + s.trouble + ")");
-}
-
-} // namespace
 
 SinkState sinkStateOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
     SinkState state{"board",

@@ -23,7 +23,7 @@
 
 namespace physvib {
 /// Runs on the link thread while it follows a device.
-class BoardOutput final : public Sink, private BoardSource {
+class BoardOutput final : public Sink {
 public:
     /// For a board that is not waited for: the link needs 20 to 40 ms. A board that needs more is reported.
     static constexpr double usualLatencySeconds = 0.05;
@@ -51,7 +51,7 @@ public:
     BoardLinkStatus status() const { return link_.status(); }
 
 private:
-    void feed() override;
+    void feed();
     void takeControls();
     void apply(const RenderControl& control);
     void setGains();

@@ -2,9 +2,7 @@
 // Renders the audio of contacts on one channel, or panned to two.
 #include "Live/Session/ContactAudio.h"
 #include "Core/Units.h"
-#include <deque>
 #include <new>
-#include <utility>
 
 namespace physvib {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Offline rendering of an event list: makes the list the renderer's event source.
 #include "Live/Session/OfflineRender.h"
-#include <algorithm>
 #include <memory>
 #include <new>
 #include <vector>

@@ -2,13 +2,8 @@
 // Processes external inputs while a session plays (actions, controls, recordings, events, stops, lanes), and
 // logs them.
 #include "Live/Session/Scheduler.h"
-#include "Core/NameNumbers.h"
 #include "Io/Disk/ReadFile.h"
-#include "Live/Session/WorldRunner.h"
-#include <algorithm>
 #include <iterator>
-#include <utility>
-#include <variant>
 
 namespace physvib {
 
@@ -221,18 +216,13 @@ std::optional<int> Scheduler::keepClip(std::span<const ContactRecording> channel
         rates = recordings_.rates();
         if (!std::ranges::all_of(rates, [&](int rate) { return sounds.back().isAt(rate); })) continue;
         for (ClipSound& sound : sounds) recordings_.add(std::move(sound));
-        return logClip(channels);
+        const auto first = static_cast<int>(clips_.size());
+        for (int j = 0; j < std::ssize(channels); ++j) {
+            const auto& kept = clips_.emplace_back(ClipFile{channels[static_cast<std::size_t>(j)].file, j});
+            if (isLogged_) log_.clips.push_back(kept);
+        }
+        return first;
     }
-}
-
-// Returns the number of the first channel.
-int Scheduler::logClip(std::span<const ContactRecording> channels) {
-    const int first = static_cast<int>(clips_.size());
-    for (int j = 0; j < std::ssize(channels); ++j) {
-        const ClipFile& file = clips_.emplace_back(ClipFile{channels[static_cast<std::size_t>(j)].file, j});
-        if (isLogged_) log_.clips.push_back(file);
-    }
-    return first;
 }
 
 PhantomPanner Scheduler::panner() const {

@@ -236,7 +236,6 @@ private:
     bool post(RenderControl& control);
     void postDueStops(std::int64_t untilNs);
     bool hasRoomFor(std::span<const ClipSound> channels) const;
-    int logClip(std::span<const ContactRecording> channels);
 
     const SessionSetup& setup_;
     const bool isLogged_;

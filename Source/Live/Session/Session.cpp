@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Start and resumption of a session, and rendering with the output latency.
 #include "Live/Session/Session.h"
-#include <algorithm>
-#include <array>
 #include <new>
 
 namespace physvib {

@@ -2,9 +2,6 @@
 // Writes the two growing files of a session's journal, and converts the first to a session file at the end.
 #include "Live/Session/SessionJournal.h"
 #include "Io/Disk/ReadFile.h"
-#include <algorithm>
-#include <chrono>
-#include <utility>
 
 namespace physvib {
 namespace {

@@ -2,9 +2,6 @@
 // Renders a saved session: merges the events of its scene runs and inputs, then renders offline. Renders
 // stimuli in g and scales them to each actuator's full scale.
 #include "Live/Session/SessionRender.h"
-#include "Io/Text/NumberText.h"
-#include <algorithm>
-#include <cmath>
 
 namespace physvib {
 
@@ -80,17 +77,17 @@ double peakOf(const std::vector<float>& samples) {
     return peak;
 }
 
-/// Scales samples in g to shares of full scale. Empty, or the error of the channel that is too strong.
-std::string scaleToEnchanters(StimulusSound& sound, const LayoutDescription& layout) {
+/// Scales samples in g to shares of full scale. Or the error of the channel that is too strong.
+Result<StimulusSound> scaledToEnchanters(StimulusSound sound, const LayoutDescription& layout) {
     for (std::size_t j = 0; j < sound.channels.size(); ++j) {
         const auto& enchanter = layout.enchanters[j];
         const double peakG = peakOf(sound.channels[j]);
         if (!std::isfinite(peakG) || peakG > enchanter.fullScaleG * (1.0 + fullScaleSlack))
-            return "actuator " + enchanter.label + ": expected at most its full scale of " +
-                   numberText(enchanter.fullScaleG) + " g, found " + fixedNumber(peakG, 3) + " g";
+            return Failure{"actuator " + enchanter.label + ": expected at most its full scale of " +
+                           numberText(enchanter.fullScaleG) + " g, found " + fixedNumber(peakG, 3) + " g"};
         for (float& s : sound.channels[j]) s = static_cast<float>(s / enchanter.fullScaleG);
     }
-    return {};
+    return sound;
 }
 
 } // namespace
@@ -117,9 +114,7 @@ Result<StimulusSound> renderStimulus(const Stimulus& stimulus, const LayoutDescr
             sound.channels[j].insert(sound.channels[j].end(), blocks[j], blocks[j] + frames);
         return true;
     });
-    const std::string error = scaleToEnchanters(sound, layout);
-    if (!error.empty()) return Failure{error};
-    return sound;
+    return scaledToEnchanters(std::move(sound), layout);
 }
 
 Result<StimulusSound> placeRecording(const StimulusSound& recording, const FieldPlace& place, double levelG,
@@ -136,9 +131,7 @@ Result<StimulusSound> placeRecording(const StimulusSound& recording, const Field
                         std::vector<std::vector<float>>(layout.enchanters.size(), samples)};
     for (std::size_t j = 0; j < sound.channels.size(); ++j)
         for (float& s : sound.channels[j]) s = static_cast<float>(s * (levelG / peak * gains[j]));
-    const std::string error = scaleToEnchanters(sound, layout);
-    if (!error.empty()) return Failure{error};
-    return sound;
+    return scaledToEnchanters(std::move(sound), layout);
 }
 
 } // namespace physvib

@@ -71,9 +71,7 @@ public:
     std::int64_t nextNs(std::int64_t frame) const noexcept { return sessionNs(nextFrame(frame)); }
 
     /// Session time of an event that the render call creates at a frame of the next block. R.
-    std::int64_t nextInputNs(std::int64_t frame) const noexcept {
-        return isBornDirect_ ? nextRenderedNs(frame) : nextNs(frame);
-    }
+    std::int64_t nextInputNs(std::int64_t frame) const noexcept { return sessionNs(nextInputFrame(frame)); }
 
     /// The same in the renderer's frames, and the frame that leaves the renderer then. R.
     std::int64_t nextInputFrame(std::int64_t frame) const noexcept {
@@ -86,7 +84,7 @@ public:
     /// Session time of what leaves the renderer at `frame` of the next block; the renderer's latency is part
     /// of the output latency. R.
     std::int64_t nextRenderedNs(std::int64_t frame) const noexcept {
-        return nextNs(frame - outputLatencyFrames() + law_.limiterFrames);
+        return sessionNs(nextRenderedFrame(frame));
     }
 
     /// Session time that is felt when the first frame of the next block leaves the device. R.

@@ -3,15 +3,26 @@
 #include "Live/Session/WorldRunner.h"
 #include "Live/Session/Scheduler.h"
 #include "Scene/SceneValidation.h"
-#include <chrono>
 #include <iterator>
-#include <thread>
-#include <utility>
 
 namespace physvib {
 namespace {
 
 constexpr int posesTries = 8; // a millisecond apart: most steps are shorter, and a display can wait that long
+
+// moveLog() keeps the last stall of a run, because it may still grow. So the first stall of `from` may be the
+// last one of `to` with a new length; then both begin at the same world time.
+void moveTo(SceneRun& to, SceneRun& from) {
+    std::ranges::move(from.inputs, std::back_inserter(to.inputs));
+    from.inputs.clear();
+    for (const WorldStall& stall : from.stalls) {
+        if (!to.stalls.empty() && to.stalls.back().worldNs == stall.worldNs)
+            to.stalls.back() = stall;
+        else
+            to.stalls.push_back(stall);
+    }
+    to.worldEndNs = from.worldEndNs;
+}
 
 } // namespace
 
@@ -271,24 +282,6 @@ std::int64_t WorldRunner::readPoses(std::vector<BodyPose>& poses) const {
     poses = shown_;
     return shownNs_;
 }
-
-namespace {
-
-// moveLog() keeps the last stall of a run, because it may still grow. So the first stall of `from` may be the
-// last one of `to` with a new length; then both begin at the same world time.
-void moveTo(SceneRun& to, SceneRun& from) {
-    std::ranges::move(from.inputs, std::back_inserter(to.inputs));
-    from.inputs.clear();
-    for (const WorldStall& stall : from.stalls) {
-        if (!to.stalls.empty() && to.stalls.back().worldNs == stall.worldNs)
-            to.stalls.back() = stall;
-        else
-            to.stalls.push_back(stall);
-    }
-    to.worldEndNs = from.worldEndNs;
-}
-
-} // namespace
 
 void SessionWorld::start(std::int64_t sessionNs, std::shared_ptr<const Scene> scene, std::uint32_t seed) {
     auto next = std::make_unique<Simulation>(*scene, seed, run_.stepsPerSecond, run_.timing, run_.location);

@@ -18,11 +18,6 @@ namespace {
 
 constexpr std::size_t longestPacket = 65'536;
 
-struct FreeAddresses {
-    void operator()(addrinfo* all) const { freeaddrinfo(all); }
-};
-using Addresses = std::unique_ptr<addrinfo, FreeAddresses>;
-
 Result<std::shared_ptr<addrinfo>> lookUp(const std::string& host, int port, int flags) {
     sockets::begin();
     addrinfo wanted{};
@@ -31,7 +26,7 @@ Result<std::shared_ptr<addrinfo>> lookUp(const std::string& host, int port, int 
     addrinfo* found = nullptr;
     if (const int fault = getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found))
         return Failure{inQuotes(host) + ": " + gai_strerror(fault)};
-    return std::shared_ptr<addrinfo>(Addresses{found});
+    return std::shared_ptr<addrinfo>(found, freeaddrinfo);
 }
 
 /// A broadcast or multicast address, to which a packet is for many computers.
