@@ -2,6 +2,7 @@
 // Readers for each kind of study table.
 #include "Lab/Files/StudyCsv.h"
 #include "Io/Text/CleanText.h"
+#include "Io/Text/NameList.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/Stimulus.h"
