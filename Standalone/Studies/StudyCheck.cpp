@@ -191,13 +191,12 @@ std::string tabbed(const std::vector<Cells>& rows) {
     return text;
 }
 
-std::string csvOf(const std::vector<Cells>& rows) {
+std::string csvOf(std::vector<Cells> rows) {
     std::string text;
-    for (const Cells& row : rows)
-        for (std::size_t c = 0; c < rows.front().size(); ++c) {
-            if (c < row.size()) appendCell(text, row[c]);
-            text += c + 1 < rows.front().size() ? "," : "\n";
-        }
+    for (Cells& row : rows) {
+        row.resize(rows.front().size());
+        text += csvLine(row);
+    }
     return text;
 }
 
@@ -290,11 +289,7 @@ public:
             if (isWhole_ || (planned.isHighest && !isOpenEnded)) render(job, at->second);
         }
         CheckedStimulus checked = at->second;
-        checked.condition = planned.condition;
-        checked.label = planned.label;
-        checked.part = planned.part;
-        checked.levelDb = planned.levelDb;
-        checked.isHighest = planned.isHighest;
+        static_cast<PlannedStimulus&>(checked) = planned;
         checked.isOpenEnded = isOpenEnded;
         return checked;
     }

@@ -3,6 +3,7 @@
 // balance of orders.
 #pragma once
 #include "Lab/Study/Experiment.h"
+#include "Lab/Study/StudyPlan.h"
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -10,13 +11,9 @@
 
 namespace physvib {
 /// A stimulus of a condition, or a part of it (an alternative or object), at a level that its sessions reach.
-struct CheckedStimulus {
-    std::size_t condition = 0; ///< index in the protocol
-    std::string label, part;   ///< part is empty if there are none
-    double levelDb = 0.0;      ///< level of the part
-    bool isHighest = true;     ///< false: a lower level of the same samples, of which nothing is expected
-    double seconds = 0.0;      ///< duration
-    double frequencyHz = 0.0;  ///< of the strongest impact or pulse
+struct CheckedStimulus : PlannedStimulus {
+    double seconds = 0.0;     ///< duration
+    double frequencyHz = 0.0; ///< of the strongest impact or pulse
     double peakShare = 0.0; ///< of the actuator with the largest share of its full scale; without the limiter
     double neededG = 0.0;   ///< full scale that this actuator needs
     double peakG = 0.0, rmsG = 0.0; ///< of the strongest actuator; rmsG over the duration

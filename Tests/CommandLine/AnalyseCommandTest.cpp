@@ -23,42 +23,37 @@ TEST_F(Analyse, AStaircaseWithoutReversalsHasNoThreshold) {
     // An observer that always feels 0.25 g and never silence does not err.
     std::string protocol = call("study show level-steps").out;
     const std::string standard = "{ \"name\": \"standard\" }";
-    ASSERT_NE(protocol.find(standard), std::string::npos);
+    ASSERT_TRUE(has(protocol, standard));
     protocol.replace(protocol.find(standard), standard.size(),
                      "{ \"name\": \"standard\", \"level_db\": -80 }");
     write("mine.json", protocol);
-    ASSERT_EQ(call("study run mine.json --observer simulated").exitCode, 0);
+    runs("study run mine.json --observer simulated");
     const auto flat = call("analyse levels level-steps-P01.csv");
-    EXPECT_NE(flat.err.find("PHONE: participant P01 left out: a staircase has fewer than two reversals"),
-              std::string::npos)
-        << flat.err;
-    EXPECT_NE(flat.err.find("P01.csv: of no built-in protocol: unfinished"), std::string::npos);
-    ASSERT_EQ(call("study run level-steps --observer simulated --participant P02").exitCode, 0);
-    const auto other = call("analyse levels level-steps-P02.csv");
-    EXPECT_EQ(other.err.find("fewer than two"), std::string::npos);
+    EXPECT_TRUE(has(flat.err, "PHONE: participant P01 left out: a staircase has fewer than two reversals"));
+    EXPECT_TRUE(has(flat.err, "P01.csv: of no built-in protocol: unfinished"));
+    runs("study run level-steps --observer simulated --participant P02");
+    EXPECT_FALSE(has(call("analyse levels level-steps-P02.csv").err, "fewer than two"));
     std::string cut = read("level-steps-P02.csv"); // the last staircase lacks its end
     for (int line = 0; line < 4; ++line) cut.erase(cut.rfind('\n', cut.size() - 2) + 1);
     write("level-steps-P02.csv", cut);
-    EXPECT_NE(
-        call("analyse levels level-steps-P02.csv").err.find("P02 left out: main in PHONE: not finished"),
-        std::string::npos);
+    EXPECT_TRUE(
+        has(call("analyse levels level-steps-P02.csv").err, "P02 left out: main in PHONE: not finished"));
 }
 
 TEST_F(Analyse, MagnitudesWithoutAStimulusAreReadByTheirLevels) {
     write("m.csv", "participant,value,level_db\n01,2,0\n02,8,0\n01,3,6\n");
-    const auto outcome = call("analyse levels m.csv --export l.csv");
-    EXPECT_NE(outcome.err.find("no column stimulus: level_db (dB) stands for it"), std::string::npos);
-    EXPECT_NE(read("l.csv").find("\ngeometric mean magnitude (SD of log10),,0,2,2,4,"), std::string::npos)
-        << read("l.csv");
+    EXPECT_TRUE(has(call("analyse levels m.csv --export l.csv").err,
+                    "no column stimulus: level_db (dB) stands for it"));
+    EXPECT_TRUE(has(read("l.csv"), "\ngeometric mean magnitude (SD of log10),,0,2,2,4,"));
 }
 
 TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {
     const auto expects = [&](const std::string& protocol, const std::string& asked,
                              const std::string& words) {
-        ASSERT_EQ(call("study run " + protocol + " --observer simulated").exitCode, 0);
+        runs("study run " + protocol + " --observer simulated");
         const auto outcome = call("analyse " + asked + " " + protocol + "-P01.csv");
         EXPECT_EQ(outcome.exitCode, 1);
-        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+        EXPECT_TRUE(has(outcome.err, words));
     };
     expects("phantom-places", "confusion",
             "expected trials of this kind, found none; the file has trials that "
@@ -70,15 +65,11 @@ TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {
             "; the file has trials that `physvib analyse choices`, `analyse levels` reads");
     write("cells.csv", "target_column,target_row,x,y\n1,1,0.5,0.5\n");
     const auto cells = call("analyse places cells.csv").err;
-    EXPECT_NE(cells.find("cells.csv: expected a column target_x, found none; the file has trials "
-                         "that `physvib analyse resolution` reads"),
-              std::string::npos)
-        << cells;
-    const auto places = call("analyse places phantom-places-P01.csv --export places.csv"); // our own rows
-    EXPECT_EQ(places.exitCode, 0) << places.err;
-    EXPECT_NE(test::squeezed(places.out).find("\nPHONE-LINEAR distance from the target 175 1 0."),
-              std::string::npos)
-        << places.out;
+    EXPECT_TRUE(has(cells, "cells.csv: expected a column target_x, found none; the file has trials "
+                           "that `physvib analyse resolution` reads"));
+    const auto places = runs("analyse places phantom-places-P01.csv --export places.csv");
+    // our own rows
+    EXPECT_TRUE(has(test::squeezed(places.out), "\nPHONE-LINEAR distance from the target 175 1 0."));
     std::filesystem::remove(folder_ / "places.csv");
     std::filesystem::remove(folder_ / "cells.csv");
     write("c.csv", "choice,participant\na,1\nb,1\n");
@@ -88,26 +79,23 @@ TEST_F(Analyse, TrialsOfAnotherKindAreNamedWithTheCallThatReadsThem) {
             4);
     write("d.csv", "stimulus,participant,response\n,1,a\n");
     const auto own = call("analyse confusion d.csv").err;
-    EXPECT_EQ(own.find("the file has"), std::string::npos) << "its own kind, with another fault: " << own;
+    EXPECT_FALSE(has(own, "the file has")) << "its own kind, with another fault";
 }
 
 TEST_F(Analyse, PublishedPercentCountsGiveThePublishedResolutions) {
     write("p.csv", publishedCounts);
-    const auto outcome = call("analyse percent-counts p.csv --picture p.svg --export merged.csv");
-    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto outcome = runs("analyse percent-counts p.csv --picture p.svg --export merged.csv");
     EXPECT_EQ(outcome.err, "");
     EXPECT_EQ(test::squeezed(outcome.out),
               "condition resolution columns rows sum_percent standard_deviation\n"
               "PHONE-LINEAR 5 x 5 1+2 | 3 | 4 | 5 | 6+7 1 | 2 | 3 | 4 | 5 99.96 1.321\n"
               "RING-LOGARITHM 7 x 4 1 | 2 | 3 | 4 | 5 | 6 | 7 1 | 2+3 | 4 | 5 100 1.113\n"
               "RING-LOGARITHM 7 x 4 1 | 2 | 3 | 4 | 5 | 6 | 7 1+2 | 3 | 4 | 5 100 1.113\n");
-    EXPECT_EQ(read("p.svg").rfind("<svg ", 0), 0u);
-    EXPECT_NE(read("p.svg").find("<title>PHONE-LINEAR: 5 x 5</title>"), std::string::npos)
-        << "the merged grid";
-    EXPECT_NE(read("merged.csv").find("\nRING-LOGARITHM,4,7,"), std::string::npos);
-    EXPECT_NE(test::squeezed(call("analyse percent-counts p.csv --threshold 1.4286").out)
-                  .find("PHONE-LINEAR 7 x 3 "),
-              std::string::npos);
+    EXPECT_TRUE(read("p.svg").starts_with("<svg "));
+    EXPECT_TRUE(has(read("p.svg"), "<title>PHONE-LINEAR: 5 x 5</title>")) << "the merged grid";
+    EXPECT_TRUE(has(read("merged.csv"), "\nRING-LOGARITHM,4,7,"));
+    EXPECT_TRUE(has(test::squeezed(call("analyse percent-counts p.csv --threshold 1.4286").out),
+                    "PHONE-LINEAR 7 x 3 "));
 }
 
 std::string identity(int stimuli) {
@@ -121,13 +109,12 @@ TEST_F(Analyse, ToleranceCountsNeighboursAsTheStimulus) {
     for (int i = 0; i < 20; ++i) text += "\"1,1\",\"1,2\"\n\"3,3\",\"3,3\"\n";
     write("g.csv", text);
     const std::string exact = test::squeezed(call("analyse confusion g.csv").out);
-    EXPECT_NE(exact.find(" 2 40 50 50 "), std::string::npos) << exact;
+    EXPECT_TRUE(has(exact, " 2 40 50 50 "));
     const auto outcome = call("analyse confusion g.csv --tolerance 1 --picture g.svg --export g-matrix.csv");
-    EXPECT_NE(test::squeezed(outcome.out).find(" 2 40 50 100 1 91.24 100 over trials, Wilson's 1 1 1 1\n"),
-              std::string::npos)
-        << "percent correct, IT, also corrected: " << outcome.out;
+    EXPECT_TRUE(has(test::squeezed(outcome.out), " 2 40 50 100 1 91.24 100 over trials, Wilson's 1 1 1 1\n"))
+        << "percent correct, IT, also corrected";
     EXPECT_EQ(outcome.err, "");
-    EXPECT_NE(read("g-matrix.csv").find("\n,,\"1,1\",\"1,1\",20\n"), std::string::npos);
+    EXPECT_TRUE(has(read("g-matrix.csv"), "\n,,\"1,1\",\"1,1\",20\n"));
     write("s.csv", identity(3));
     refuses("analyse confusion s.csv --tolerance 1", 1,
             "s.csv: --tolerance: expected grid labels r,c, found \"s0\"", 4);
@@ -137,35 +124,29 @@ TEST_F(Analyse, ParticipantsTransferForThemselves) {
     write("c.csv",
           "participant,condition,stimulus,response\nP1,PHONE,a,a\nP1,PHONE,b,b\nP2,PHONE,a,a\nP2,PHONE,b,a\n"
           "P3,PHONE,a,a\n");
-    const auto outcome = call("analyse confusion c.csv --export m.csv --participants each.csv");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("stimuli are lacking of P3, left out of means of participants"),
-              std::string::npos)
-        << outcome.err;
-    EXPECT_NE(test::squeezed(outcome.out).find("\nPHONE 2 5 50 80 2 75 "), std::string::npos)
-        << "not of whom had the easier stimulus alone: " << outcome.out;
-    EXPECT_NE(read("each.csv").find("\nPHONE,P3,1,,0,\n"), std::string::npos) << read("each.csv");
+    const auto outcome = runs("analyse confusion c.csv --export m.csv --participants each.csv");
+    EXPECT_TRUE(has(outcome.err, "stimuli are lacking of P3, left out of means of participants"));
+    EXPECT_TRUE(has(test::squeezed(outcome.out), "\nPHONE 2 5 50 80 2 75 "))
+        << "not of whom had the easier stimulus alone";
+    EXPECT_TRUE(has(read("each.csv"), "\nPHONE,P3,1,,0,\n"));
     write("c.csv", "participant,stimulus,response\nP1,a,a\nP1,b,b\nP2,a,a\nP3,b,a\n");
-    EXPECT_NE(call("analyse confusion c.csv").err.find("stimuli are lacking of P2, P3\n"), std::string::npos);
+    EXPECT_TRUE(has(call("analyse confusion c.csv").err, "stimuli are lacking of P2, P3\n"));
     write(
         "c.csv",
         "participant,condition,stimulus,response\nP1,PHONE,a,a\nP1,PHONE,b,b\nP2,PHONE,a,a\nP2,PHONE,b,a\n");
-    EXPECT_EQ(call("analyse confusion c.csv --participants each.csv").err.find("are lacking"),
-              std::string::npos);
-    EXPECT_NE(read("m.csv").find("\nPHONE,P2,b,a,1\n"), std::string::npos);
-    EXPECT_NE(read("each.csv").find("\nPHONE,P1,2,100,1,\nPHONE,P2,2,50,0,\n"), std::string::npos)
-        << read("each.csv");
+    EXPECT_FALSE(has(call("analyse confusion c.csv --participants each.csv").err, "are lacking"));
+    EXPECT_TRUE(has(read("m.csv"), "\nPHONE,P2,b,a,1\n"));
+    EXPECT_TRUE(has(read("each.csv"), "\nPHONE,P1,2,100,1,\nPHONE,P2,2,50,0,\n"));
 }
 
 TEST_F(Analyse, BadTrialsAreNamedAndHandled) {
     write("c.csv", "stimulus,response\na,a\nb,x\nb,\na,a\n");
-    const auto outcome = call("analyse confusion c.csv");
-    EXPECT_EQ(outcome.exitCode, 0);
+    const auto outcome = runs("analyse confusion c.csv");
     for (const char* words :
          {"c.csv: 1 trial without a response left out", "unequal numbers of answers: b 1, others up to 2",
           "responses that are no stimulus count as wrong: x"})
-        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-    EXPECT_EQ(outcome.out.find("nan"), std::string::npos);
+        EXPECT_TRUE(has(outcome.err, words));
+    EXPECT_FALSE(has(outcome.out, "nan"));
     write("c.csv", "stimulus\na\n");
     refuses("analyse confusion c.csv", 1, "c.csv: expected a column response, found none", 1);
     write("c.csv", "stimulus,response\n1,2,1,2\n");
@@ -174,9 +155,8 @@ TEST_F(Analyse, BadTrialsAreNamedAndHandled) {
     refuses("analyse confusion", 2, "files", 1);
     refuses("analyse", 2, "", 1);
     write("p.csv", "condition,row,c1\nA,1,90\nA,2,5\n");
-    EXPECT_NE(call("analyse percent-counts p.csv")
-                  .err.find("A: percent counts sum to 95.00, expected 100 within 0.01"),
-              std::string::npos);
+    EXPECT_TRUE(has(call("analyse percent-counts p.csv").err,
+                    "A: percent counts sum to 95.00, expected 100 within 0.01"));
 }
 
 /// Five responses around each of 3 x 2 targets.
@@ -194,13 +174,12 @@ std::string responses() {
 TEST_F(Analyse, ResponsesGiveAResolutionAndItsCountsGiveItAgain) {
     write("r.csv", responses());
     const auto outcome =
-        call("analyse resolution r.csv --picture r.svg --counts counts.csv --export normals.csv");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(test::squeezed(outcome.out).find("\nWIDE 3 x 2 "), std::string::npos) << outcome.out;
+        runs("analyse resolution r.csv --picture r.svg --counts counts.csv --export normals.csv");
+    EXPECT_TRUE(has(test::squeezed(outcome.out), "\nWIDE 3 x 2 "));
     EXPECT_EQ(call("analyse percent-counts counts.csv").out, outcome.out);
     EXPECT_EQ(files().size(), 4u);
     const std::string picture = read("r.svg");
-    ASSERT_EQ(call("analyse resolution r.csv --picture r.svg").exitCode, 0);
+    runs("analyse resolution r.csv --picture r.svg");
     EXPECT_EQ(read("r.svg"), picture) << "the same bytes again";
 }
 
@@ -209,29 +188,22 @@ TEST_F(Analyse, ResponsesThatAllowNoNormalAreNamedAndLeaveNothing) {
     refuses("analyse resolution r.csv --picture r.svg --counts c.csv", 1,
             "r.csv: A: column 1, row 1: expected three or more responses", 1);
     write("r.csv", responses() + "WIDE,4,1,0.99,0.2\n");
-    const auto outcome = call("analyse resolution r.csv");
-    EXPECT_EQ(outcome.exitCode, 0);
-    EXPECT_NE(outcome.err.find("column 4, row 1: 1 responses, the condition's pooled covariance is taken"),
-              std::string::npos)
-        << outcome.err;
-    EXPECT_NE(outcome.err.find("column 4, row 2: no responses"), std::string::npos) << outcome.err;
-    EXPECT_EQ(outcome.out.find("nan"), std::string::npos);
+    const auto outcome = runs("analyse resolution r.csv");
+    EXPECT_TRUE(has(outcome.err, "column 4, row 1: 1 responses, the condition's pooled covariance is taken"));
+    EXPECT_TRUE(has(outcome.err, "column 4, row 2: no responses"));
+    EXPECT_FALSE(has(outcome.out, "nan"));
 }
 
 TEST_F(Analyse, ChoicesAndRatings) {
     write("c.csv", "participant,condition,choice\nP1,pair=wood,RM\nP1,pair=steel,SV\nP2,pair=wood,RM\nP2,"
                    "pair=steel,RM\n");
-    const auto choices = call("analyse choices c.csv --picture c.svg --export c-out.csv");
-    ASSERT_EQ(choices.exitCode, 0) << choices.err;
-    EXPECT_NE(read("c-out.csv").find("\nall,RM,3,4,2,75,75,,,\nall,SV,1,4,2,25,25,,,\n"), std::string::npos)
-        << read("c-out.csv");
+    runs("analyse choices c.csv --picture c.svg --export c-out.csv");
+    EXPECT_TRUE(has(read("c-out.csv"), "\nall,RM,3,4,2,75,75,,,\nall,SV,1,4,2,25,25,,,\n"));
     write("r.csv",
           "participant,condition,realism,harmony,liking\nP1,AV-FV-DRV,76,68,71\nP2,AF-FF-DRF,36,42,36\n");
-    const auto ratings = call("analyse ratings r.csv --picture r.svg --export r-out.csv");
-    ASSERT_EQ(ratings.exitCode, 0) << ratings.err;
-    EXPECT_NE(test::squeezed(ratings.out).find("\nAV-FV-DRV realism 1 1 76 76\n"), std::string::npos)
-        << ratings.out;
-    EXPECT_NE(read("r-out.csv").find("\nAF-FF-DRF,liking,1,1,36,36,,\n"), std::string::npos);
+    EXPECT_TRUE(has(test::squeezed(runs("analyse ratings r.csv --picture r.svg --export r-out.csv").out),
+                    "\nAV-FV-DRV realism 1 1 76 76\n"));
+    EXPECT_TRUE(has(read("r-out.csv"), "\nAF-FF-DRF,liking,1,1,36,36,,\n"));
 }
 
 TEST_F(Analyse, IconsAreThePatternsThatAreConfusedLeast) {
@@ -241,25 +213,23 @@ TEST_F(Analyse, IconsAreThePatternsThatAreConfusedLeast) {
         text += i % 3 ? "AA-100,AA-100\n" : "AA-100,A-100\n";
     }
     write("c.csv", text);
-    const auto outcome = call("analyse icons c.csv --meanings 3 --picture i.svg");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_EQ(outcome.out, "3 meanings need 1.58 bit\nall trials: 4 patterns on 2 actuators, 1.73 bit: "
-                           "enough\n  A-100  100.0 % correct\n"
-                           "  AB-100  100.0 % correct\n  B-100  100.0 % correct\n");
+    EXPECT_EQ(runs("analyse icons c.csv --meanings 3 --picture i.svg").out,
+              "3 meanings need 1.58 bit\nall trials: 4 patterns on 2 actuators, 1.73 bit: "
+              "enough\n  A-100  100.0 % correct\n"
+              "  AB-100  100.0 % correct\n  B-100  100.0 % correct\n");
     refuses("analyse icons c.csv --meanings 1", 2, "--meanings", 2);
 }
 
 TEST_F(Analyse, SimulatedDataIsMarkedWhereverItGoes) {
     write("c.csv", "observer,stimulus,response\nsimulated-PHONE,a,a\nsimulated-PHONE,b,b\n");
-    const auto outcome = call("analyse confusion c.csv --export matrix.csv --picture s.svg");
-    EXPECT_EQ(outcome.out.rfind("SIMULATED", 0), 0u);
-    EXPECT_EQ(
-        read("matrix.csv").rfind("# physvib " PHYSVIB_VERSION " analysis=confusion observer=simulated\n", 0),
-        0u);
+    EXPECT_TRUE(
+        call("analyse confusion c.csv --export matrix.csv --picture s.svg").out.starts_with("SIMULATED"));
+    EXPECT_TRUE(read("matrix.csv")
+                    .starts_with("# physvib " PHYSVIB_VERSION " analysis=confusion observer=simulated\n"));
     write("c.csv", "observer,stimulus,response\nperson,a,a\nperson,b,b\n");
-    ASSERT_EQ(call("analyse confusion c.csv --picture p.svg").exitCode, 0);
-    EXPECT_NE(read("s.svg").find(">SIMULATED<"), std::string::npos);
-    EXPECT_EQ(read("p.svg").find(">SIMULATED<"), std::string::npos);
+    runs("analyse confusion c.csv --picture p.svg");
+    EXPECT_TRUE(has(read("s.svg"), ">SIMULATED<"));
+    EXPECT_FALSE(has(read("p.svg"), ">SIMULATED<"));
 }
 
 // Functions fitted to each participant's trials, and what has gone to R.
@@ -278,25 +248,21 @@ TEST_F(AnalyseFits, FunctionsAreFittedToEachParticipant) {
     for (int level = 1; level <= 4; ++level)
         magnitudes += "P,level_g=" + std::to_string(level) + "," + std::to_string(3 * level * level) + "\n";
     write("c.csv", choices);
-    const auto fitted = call("analyse psychometric c.csv --export f.csv");
-    ASSERT_EQ(fitted.exitCode, 0) << fitted.err;
-    EXPECT_NE(test::squeezed(fitted.out).find("\nring threshold 3 "), std::string::npos) << fitted.out;
-    EXPECT_NE(
-        read("f.csv").find(
-            "\ncondition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood\nring,P0,120,"),
-        std::string::npos)
-        << read("f.csv");
+    const auto fitted = runs("analyse psychometric c.csv --export f.csv");
+    EXPECT_TRUE(has(test::squeezed(fitted.out), "\nring threshold 3 "));
+    EXPECT_TRUE(
+        has(read("f.csv"),
+            "\ncondition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood\nring,P0,120,"));
     for (const auto& [from, to] :
          {std::pair{"correct\n", "choice\n"}, {",0\n", ",left\n"}, {",1\n", ",right\n"}})
         for (std::size_t at = 0; (at = choices.find(from, at)) != std::string::npos;)
             choices.replace(at, std::string_view{from}.size(), to);
     write("m.csv", choices);
     const auto left = call("analyse psychometric m.csv --measure choice=right --guess 0");
-    EXPECT_NE(test::squeezed(left.out).find("\nring point of subjective equality 3 "), std::string::npos)
-        << left.out;
+    EXPECT_TRUE(has(test::squeezed(left.out), "\nring point of subjective equality 3 "));
     write("m.csv", magnitudes);
     const std::string law = call("analyse power-law m.csv --level level_g").out;
-    EXPECT_NE(test::squeezed(law).find(" exponent 1 2\n"), std::string::npos) << law;
+    EXPECT_TRUE(has(test::squeezed(law), " exponent 1 2\n"));
     refuses("analyse power-law c.csv", 1, "c.csv: expected a column value, found none", 3);
     refuses(
         "analyse power-law m.csv", 1,

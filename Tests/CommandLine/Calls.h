@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Calls of the `physvib` program inside a folder of the test's own, and what they left.
 #pragma once
+#include "Support/Has.h"
 #include "TestPlaces.h"
 #include <algorithm>
 #include <cstdlib>
@@ -60,6 +61,12 @@ protected:
                                     " >.out 2>.err";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
+    }
+    /// A call that succeeds.
+    Outcome runs(const std::string& arguments) const {
+        Outcome outcome = call(arguments);
+        EXPECT_EQ(outcome.exitCode, 0) << arguments << "\nsaid: " << outcome.out << outcome.err;
+        return outcome;
     }
     std::string read(const std::string& name) const {
         std::ifstream file{folder_ / name, std::ios::binary};

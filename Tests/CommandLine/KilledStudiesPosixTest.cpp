@@ -5,6 +5,7 @@
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyRun.h"
+#include "Support/Has.h"
 #include <csignal>
 #include <cstdlib>
 #include <fstream>
@@ -88,28 +89,20 @@ protected:
         };
         EXPECT_EQ(faultOf([](Apparatus&) {}), "");
         EXPECT_EQ(faultOf([](Apparatus& a) { a.version = "2.0"; }), "") << "rows say which";
-        EXPECT_NE(
-            faultOf([](Apparatus& a) {
-                a.device = "ALSA:other";
-            }).find("expected the device as in the trials before, \"JACK:system\", found \"ALSA:other\""),
-            std::string::npos);
-        EXPECT_NE(faultOf([](Apparatus& a) {
-                      a.masterDb = -18.0;
-                  }).find("expected the master level as in the trials before, -6 dB, found -18 dB"),
-                  std::string::npos);
-        EXPECT_NE(faultOf([](Apparatus& a) {
-                      a.noiseDb = -40.0;
-                  }).find("expected the pink noise as in the trials before, -30 dB, found -40 dB"),
-                  std::string::npos);
-        EXPECT_NE(faultOf([](Apparatus& a) { a.noiseDb.reset(); }).find("found off"), std::string::npos);
+        EXPECT_TRUE(
+            has(faultOf([](Apparatus& a) { a.device = "ALSA:other"; }),
+                "expected the device as in the trials before, \"JACK:system\", found \"ALSA:other\""));
+        EXPECT_TRUE(has(faultOf([](Apparatus& a) { a.masterDb = -18.0; }),
+                        "expected the master level as in the trials before, -6 dB, found -18 dB"));
+        EXPECT_TRUE(has(faultOf([](Apparatus& a) { a.noiseDb = -40.0; }),
+                        "expected the pink noise as in the trials before, -30 dB, found -40 dB"));
+        EXPECT_TRUE(has(faultOf([](Apparatus& a) { a.noiseDb.reset(); }), "found off"));
         StudyRun other = run("killed");
         other.protocol.exposureLimit = 1.0;
-        EXPECT_NE(StudyInProgress{other}.error().find("was begun with another version of the protocol"),
-                  std::string::npos);
+        EXPECT_TRUE(has(StudyInProgress{other}.error(), "was begun with another version of the protocol"));
         other = run("killed");
         other.participant.number = 2;
-        EXPECT_NE(StudyInProgress{other}.error().find("expected trials of number 2, found 1"),
-                  std::string::npos);
+        EXPECT_TRUE(has(StudyInProgress{other}.error(), "expected trials of number 2, found 1"));
     }
 
     std::filesystem::path folder_;

@@ -20,10 +20,8 @@ protected:
     /// Trials of so many simulated participants as if they were people's, felt with that apparatus.
     void plant(const std::string& protocol, int participants, const std::string& apparatus,
                const std::string& file = {}) const {
-        ASSERT_EQ(call("study run " + (file.empty() ? protocol : file) +
-                       " --observer simulated --participants " + std::to_string(participants))
-                      .exitCode,
-                  0);
+        runs("study run " + (file.empty() ? protocol : file) + " --observer simulated --participants " +
+             std::to_string(participants));
         for (int number = 1; number <= participants; ++number) {
             const std::string name =
                 protocol + (number < 10 ? "-P0" : "-P") + std::to_string(number) + ".csv";
@@ -45,9 +43,6 @@ protected:
         const auto outcome = this->call(call);
         EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
         return read("out/index.html");
-    }
-    static bool has(const std::string& text, const std::string& what) {
-        return text.find(what) != std::string::npos;
     }
 };
 
@@ -83,20 +78,20 @@ TEST_F(ReportFields, EveryPlantedFieldHasItsSentence) {
         cells({"consent", "All signed.", ""}),
     };
     for (const std::string& sentence : planted) {
-        EXPECT_TRUE(has(whole, sentence)) << sentence << whole.substr(whole.find("<h2>Participants"), 2500);
-        EXPECT_FALSE(has(bare, sentence)) << sentence;
+        EXPECT_TRUE(has(whole, sentence)) << whole.substr(whole.find("<h2>Participants"), 2500);
+        EXPECT_FALSE(has(bare, sentence));
     }
     EXPECT_TRUE(has(bare, cells({"ethics", "not stated", ""})) &&
                 has(bare, cells({"consent", "not stated", ""})));
     EXPECT_FALSE(has(read("out/trials.csv"), "\nP04,")) << "excluded from every analysis";
-    EXPECT_TRUE(has(read("out/participants.csv"), "excluded")) << read("out/participants.csv");
+    EXPECT_TRUE(has(read("out/participants.csv"), "excluded"));
     EXPECT_TRUE(has(read("out/participants.csv"), ",,b\nP03")) << "which analysis.R compares";
-    EXPECT_TRUE(has(read("out/orders.csv"), "P01,1,")) << read("out/orders.csv");
+    EXPECT_TRUE(has(read("out/orders.csv"), "P01,1,"));
     EXPECT_TRUE(has(whole, "<th>place 6</th>"));
 }
 
 TEST_F(ReportFields, LevelsStandByStimulusAndPart) {
-    ASSERT_EQ(call("study run model-or-sound --observer simulated").exitCode, 0);
+    runs("study run model-or-sound --observer simulated");
     std::istringstream lines{read("model-or-sound-P01.csv")};
     std::string text;
     for (std::string line; std::getline(lines, line);) {
@@ -109,7 +104,7 @@ TEST_F(ReportFields, LevelsStandByStimulusAndPart) {
     write("model-or-sound-P01.csv", text);
     const std::string whole = page("report model-or-sound-P01.csv --out out"),
                       table = read("out/levels-by-stimulus.csv");
-    EXPECT_TRUE(has(table, "drop,main,pair=wood-wood size=small height=3,AV-FV-DRV,peak_g,4,0.3,")) << table;
+    EXPECT_TRUE(has(table, "drop,main,pair=wood-wood size=small height=3,AV-FV-DRV,peak_g,4,0.3,"));
     EXPECT_TRUE(has(table, "drop,main,pair=wood-wood size=small height=1,SV,peak_g,4,0.3,"));
     EXPECT_TRUE(has(whole, "<li>study1: 2 g, assumed</li>"));
     EXPECT_FALSE(has(whole, "the peak of what was felt"));
@@ -117,11 +112,8 @@ TEST_F(ReportFields, LevelsStandByStimulusAndPart) {
 
 TEST_F(ReportFields, PeopleOfOneNumberAreNamed) {
     for (const char* code : {"A", "B"})
-        ASSERT_EQ(
-            call(std::string{"study run magnitudes --observer simulated --number 1 --participant "} + code)
-                .exitCode,
-            0);
-    ASSERT_EQ(call("study run magnitudes --observer simulated --number 2 --participant C").exitCode, 0);
+        runs(std::string{"study run magnitudes --observer simulated --number 1 --participant "} + code);
+    runs("study run magnitudes --observer simulated --number 2 --participant C");
     EXPECT_TRUE(has(page("report magnitudes-A.csv magnitudes-B.csv --out out"),
                     "participants A, B have the same number, 1"));
     EXPECT_FALSE(has(page("report magnitudes-A.csv magnitudes-C.csv --out out"), "have the same number"));
@@ -175,16 +167,15 @@ TEST_F(ReportThresholds, AreComparedWithinPeople) {
     for (const auto& [name, method] :
          {std::pair<std::string, std::string>{"level-steps", "staircase"}, {"level-quest", "quest"}}) {
         writeThree(findProtocol(name).value);
-        ASSERT_EQ(call("study run study.json --observer simulated --participants 4").exitCode, 0);
-        ASSERT_EQ(call("report three-" + name + "-P*.csv --out out").exitCode, 0);
+        runs("study run study.json --observer simulated --participants 4");
+        runs("report three-" + name + "-P*.csv --out out");
         std::map<std::string, int> people;
         for (const CsvRow& row : readCsvTable(read("out/thresholds.csv"), "t").value.rows)
             people[row.cells[0] + row.cells[1]] += 1;
         EXPECT_EQ(people,
                   (std::map<std::string, int>{{method + "Ca", 4}, {method + "Cb", 4}, {method + "Cc", 4}}));
         if (hasProgram("Rscript"))
-            EXPECT_NE(read("out/tests.csv").find("pairs by t of threshold by " + method + " by condition"),
-                      std::string::npos);
+            EXPECT_TRUE(has(read("out/tests.csv"), "pairs by t of threshold by " + method + " by condition"));
     }
 }
 
@@ -198,7 +189,7 @@ TEST_F(ReportThresholds, OfConstantStimuliArePlanned) {
           "lapses\n",
           "analysis of variance of threshold by condition",
           "pairs by t of half interquartile range by condition"})
-        EXPECT_NE(plan.find(test), std::string::npos) << plan;
+        EXPECT_TRUE(has(plan, test));
 }
 
 TEST_F(ReportThresholds, AndMatchesArePlannedWhateverTheSimulatedObserverFeels) {
@@ -215,7 +206,7 @@ TEST_F(ReportThresholds, AndMatchesArePlannedWhateverTheSimulatedObserverFeels) 
         writeThree(protocol);
         std::filesystem::remove(folder_ / "analysis.R");
         const auto plan = call("study plan study.json --participants 4 --out plan.txt");
-        EXPECT_NE(plan.out.find("- test: pairs by t of " + test), std::string::npos) << plan.out << plan.err;
+        EXPECT_TRUE(has(plan.out, "- test: pairs by t of " + test)) << plan.err;
     }
 }
 
@@ -228,13 +219,10 @@ TEST_F(ReportThresholds, OfTrainingsAreNotPlanned) {
                                   .value.sessions.back();
         write("study.json", protocolJson(one));
         std::filesystem::remove(folder_ / "analysis.R");
-        const auto outcome = call("study plan study.json --participants 4 --out plan.txt");
-        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-        EXPECT_NE(outcome.out.find("\nMeasures, of each participant\n- scale: mean score\n\n"),
-                  std::string::npos)
-            << outcome.out;
+        const auto outcome = runs("study plan study.json --participants 4 --out plan.txt");
+        EXPECT_TRUE(has(outcome.out, "\nMeasures, of each participant\n- scale: mean score\n\n"));
         for (const char* words : {"- threshold", "- staircases", "- functions"})
-            EXPECT_EQ(outcome.out.find(words), std::string::npos) << outcome.out;
+            EXPECT_FALSE(has(outcome.out, words));
     }
 }
 
@@ -248,11 +236,8 @@ TEST_F(ReportThresholds, PlansHaveTheirMeasuresAndTheTestsOfTimeThatRanOut) {
             EXPECT_EQ(plan.find("trials that ran out of time in main by condition") != plan.npos,
                       seconds > 0.0)
                 << plan;
-        EXPECT_NE(
-            plan.find(
-                "\nMeasures, of each participant\n- threshold of a staircase: mean of the later half of"),
-            std::string::npos)
-            << plan;
+        EXPECT_TRUE(has(
+            plan, "\nMeasures, of each participant\n- threshold of a staircase: mean of the later half of"));
     }
     std::filesystem::remove(folder_ / "analysis.R");
     write("matches.json", read(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/equal-sensation.json"));
@@ -270,11 +255,10 @@ TEST_F(ReportThresholds, PlansHaveTheirMeasuresAndTheTestsOfTimeThatRanOut) {
                       one == measure)
                 << name << plan;
     }
-    ASSERT_EQ(call("study run pairs.json --observer simulated --participants 3").exitCode, 0);
-    ASSERT_EQ(call("report pairs-similarity-P*.csv --protocol pairs.json --out out").exitCode, 0);
+    runs("study run pairs.json --observer simulated --participants 3");
+    runs("report pairs-similarity-P*.csv --protocol pairs.json --out out");
     if (hasProgram("Rscript"))
-        EXPECT_NE(read("out/index.html").find("Tables by R: mds.csv, similarity.csv, tests.csv."),
-                  std::string::npos);
+        EXPECT_TRUE(has(read("out/index.html"), "Tables by R: mds.csv, similarity.csv, tests.csv."));
 }
 
 // Trials as a BIDS dataset: the files that its validator wants, nothing lost, nothing that breaks a row.
@@ -301,8 +285,7 @@ TEST(BidsDataset, HasTheFilesThatBidsAsksFor) {
     EXPECT_EQ(files.at("sub-P1/beh/sub-P1_task-eightmethods_beh.tsv"),
               "observer\tcondition\ttrial\tresponse\tresponse_time\trealism\nperson\tbox\t1\ta\\x09b\t1."
               "5\t70\nperson\tbox\t2\tc\t0.5\t50\n");
-    EXPECT_NE(files.at("sub-P1x2/beh/sub-P1x2_task-eightmethods_beh.tsv").find("\tn/a\t2\t60\n"),
-              std::string::npos);
+    EXPECT_TRUE(has(files.at("sub-P1x2/beh/sub-P1x2_task-eightmethods_beh.tsv"), "\tn/a\t2\t60\n"));
 }
 
 TEST(BidsDataset, EveryColumnIsDescribed) {
@@ -313,11 +296,11 @@ TEST(BidsDataset, EveryColumnIsDescribed) {
     EXPECT_EQ(sidecar.at("response_time").at("Units"), "s");
     EXPECT_EQ(sidecar.at("realism").at("Description"), "Column realism of the tables that were read");
     const auto told = bidsDataset(trials(), {"s", "t", "0", {}, false, {{"realism", "Rating from 1 to 7"}}});
-    EXPECT_NE(told.at("task-t_beh.json").find("\"Rating from 1 to 7\""), std::string::npos);
+    EXPECT_TRUE(has(told.at("task-t_beh.json"), "\"Rating from 1 to 7\""));
     const auto description = nlohmann::json::parse(files.at("dataset_description.json"));
     EXPECT_EQ(description.at("BIDSVersion"), "1.8.0");
-    EXPECT_NE(description.at("Name").get<std::string>().find("SIMULATED"), std::string::npos);
-    EXPECT_NE(files.at("README").find("SIMULATED"), std::string::npos);
+    EXPECT_TRUE(has(description.at("Name").get<std::string>(), "SIMULATED"));
+    EXPECT_TRUE(has(files.at("README"), "SIMULATED"));
 }
 
 TEST(BidsDataset, WithoutParticipantsThereIsNone) {

@@ -5,6 +5,7 @@
 // participants in ReportCommandTest.
 #include "EditedReports.h"
 #include "Lab/Report/ReportBuilder.h"
+#include "Support/Has.h"
 #include <set>
 
 namespace physvib {
@@ -283,7 +284,7 @@ TEST(ReportSentences, APlanStandsBesideWhatWasDone) {
          {"<td>hash of the protocol</td><td class=\"number\">7</td><td>" + trials.common("hash"),
           std::string{"<td>participants</td><td class=\"number\">4</td><td class=\"number\">1</td>"},
           std::string{"<td>a</td><td>yes</td><td>no</td>"}})
-        EXPECT_NE(page.find(row), std::string::npos) << row << page.substr(page.find("Planned and done"));
+        EXPECT_TRUE(has(page, row)) << page.substr(page.find("Planned and done"));
 }
 
 TEST(ReportSentences, BarsOfPointsBeginAtTheFirst) {
@@ -303,8 +304,8 @@ TEST(ReportSentences, UnfinishedStaircasesAreDrawn) {
         if (row["participant"] == "P2") row["level_db"] = "70";
     };
     const Protocol steps = findProtocol("level-steps").value;
-    EXPECT_NE(pageOf(of(steps, 3, early)).find(">70</text>"), std::string::npos);
-    EXPECT_EQ(pageOf(of(steps, 3)).find(">70</text>"), std::string::npos);
+    EXPECT_TRUE(has(pageOf(of(steps, 3, early)), ">70</text>"));
+    EXPECT_FALSE(has(pageOf(of(steps, 3)), ">70</text>"));
 }
 
 TEST(ReportSentences, StaircasesThatRanOutOfTimeAreNoChoices) {
@@ -316,9 +317,9 @@ TEST(ReportSentences, StaircasesThatRanOutOfTimeAreNoChoices) {
             if (row["trial"] == "2") row["ran_out"] = "1", row["correct"].clear();
         },
         true));
-    EXPECT_NE(page.find("ran out of time</td><td>these trials"), std::string::npos);
+    EXPECT_TRUE(has(page, "ran out of time</td><td>these trials"));
     for (const char* untrue : {"<h2>Choices", "expected trials of this kind"})
-        EXPECT_EQ(page.find(untrue), std::string::npos) << untrue;
+        EXPECT_FALSE(has(page, untrue));
 }
 
 TEST(ReportSentences, EachIsThereOnlyWhereRowsMakeItTrue) {
@@ -331,8 +332,8 @@ TEST(ReportSentences, EachIsThereOnlyWhereRowsMakeItTrue) {
         return page;
     };
     for (const auto& [words, isTrue, isNot] : all) {
-        EXPECT_NE(pageAndItsSentences(isTrue).find(words), std::string::npos) << words;
-        EXPECT_EQ(pageAndItsSentences(isNot).find(words), std::string::npos) << "untrue: " << words;
+        EXPECT_TRUE(has(pageAndItsSentences(isTrue), words));
+        EXPECT_FALSE(has(pageAndItsSentences(isNot), words)) << "untrue";
     }
     for (const std::string& sentence : unknown) ADD_FAILURE() << "without a counter-example: " << sentence;
 }

@@ -5,6 +5,7 @@
 #include "Core/PhantomPanner.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Support/FileTesting.h"
+#include "Support/Has.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -202,7 +203,7 @@ TEST(CouplingFile, FaultsNameTheirPlace) {
     EXPECT_EQ(errorOf("0.25", "-0.25"), "c.json: measured[0].magnitude[1][0]: expected 0 to 4, found -0.25");
     EXPECT_EQ(errorOf("0.25", "\"much\""),
               "c.json: measured[0].magnitude[1][0]: expected a number, found a string");
-    EXPECT_EQ(errorOf("0.25", "1e999").rfind("c.json: ", 0), 0u);
+    EXPECT_TRUE(errorOf("0.25", "1e999").starts_with("c.json: "));
     EXPECT_EQ(errorOf("-90", "-900"),
               "c.json: measured[0].phase_deg[0][1]: expected -360 to 360, found -900");
     EXPECT_EQ(
@@ -232,7 +233,7 @@ TEST(CouplingFile, NoAccidentGetsPastTheReaderUnnoticed) {
     for (int i = 0; i < 3000; ++i) {
         const auto read = readCoupling(mutated(good, "{}[]\",:0123456789.-e nul", random), "f");
         if (!read) {
-            EXPECT_EQ(read.error.rfind("f: ", 0), 0u) << read.error;
+            EXPECT_TRUE(read.error.starts_with("f: ")) << read.error;
             continue;
         }
         EXPECT_EQ(read.value.frequenciesHz.size(), read.value.matrices.size());
@@ -247,7 +248,7 @@ TEST_F(CouplingFileOnDiskTest, LoadsWhatWasWrittenAndSaysWhatIsNotThere) {
     const std::string path = (folder / "mine.json").string();
     ASSERT_EQ(writeFile(path, good), "");
     EXPECT_EQ(loadCoupling(path).value.enchanters(), 2u);
-    EXPECT_NE(loadCoupling((folder / "none.json").string()).error.find("cannot be read"), std::string::npos);
+    EXPECT_TRUE(has(loadCoupling((folder / "none.json").string()).error, "cannot be read"));
 }
 
 } // namespace

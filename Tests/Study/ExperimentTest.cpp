@@ -3,6 +3,7 @@
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Study/StaircaseThreshold.h"
+#include "Support/Has.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -117,7 +118,7 @@ TEST(Experiment, RecordsOfAnotherStudyAreRefused) {
     const auto whole = runWhole(patterns, {});
     Experiment experiment{patterns, {"P02", 2}};
     for (std::size_t i = 0; i < 28; ++i) ASSERT_EQ(experiment.redo(whole[i]), "");
-    EXPECT_EQ(experiment.redo(whole[28]).rfind("expected the stimulus ", 0), 0u)
+    EXPECT_TRUE(experiment.redo(whole[28]).starts_with("expected the stimulus "))
         << "the other participant's order";
     EXPECT_EQ(experiment.redo(whole[29]), "expected trial 1");
     EXPECT_EQ(experiment.trialsTaken(), 28);
@@ -145,9 +146,9 @@ TEST(Experiment, FreeTouchesAreCountedNotListed) {
     const auto records = runWhole(p, {});
     EXPECT_EQ(records.size(), 100u + 175u);
     EXPECT_TRUE(records.front().answer.place);
-    EXPECT_EQ(callsOf(p, records.front()).rfind("stimulus phantom --at ", 0), 0u)
+    EXPECT_TRUE(callsOf(p, records.front()).starts_with("stimulus phantom --at "))
         << callsOf(p, records.front());
-    EXPECT_EQ(callsOf(p, records.back()).rfind("stimulus phantom --grid 7x5 --cell ", 0), 0u);
+    EXPECT_TRUE(callsOf(p, records.back()).starts_with("stimulus phantom --grid 7x5 --cell "));
 }
 
 TEST(Experiment, BothButtonOrdersOfEveryConditionAppearOncePerBlock) {
@@ -167,7 +168,7 @@ TEST(Experiment, BothButtonOrdersOfEveryConditionAppearOncePerBlock) {
     for (std::size_t i = 0; i < 54; ++i) ++seen[{records[i].trial.stimulus, records[i].trial.parts.front()}];
     EXPECT_EQ(seen.size(), 54u);
     EXPECT_EQ(callsOf(p, records.front()).find('{'), std::string::npos);
-    EXPECT_NE(callsOf(p, records.front()).find(" ; "), std::string::npos);
+    EXPECT_TRUE(has(callsOf(p, records.front()), " ; "));
 }
 
 TEST(Experiment, AdjustedLevelsHoldInLaterSessions) {

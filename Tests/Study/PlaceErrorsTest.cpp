@@ -4,6 +4,7 @@
 #include "Lab/Study/Identification.h"
 #include "Lab/Study/Places.h"
 #include "Stimuli/SeededRandom.h"
+#include "Support/Has.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -105,7 +106,7 @@ TEST(PlaceErrors, OurOwnRowsHaveTheirGridInTheCall) {
     EXPECT_EQ(read.value.conditions[1].trials, (std::vector<PlaceTrial>{{"P1", "1,4", 1.0, 0.0, 1.0, 0.5}}))
         << "corners unless the call says middles";
     ASSERT_EQ(read.value.warnings.size(), 1u);
-    EXPECT_NE(read.value.warnings[0].find("shares of the field's width and height"), std::string::npos);
+    EXPECT_TRUE(has(read.value.warnings[0], "shares of the field's width and height"));
     for (const char* wrong : {"--grid 4x2", "stimulus phantom --at 0.5", "x --grid 4 --seconds 1",
                               "x --grid 4x99", "x --grid 2x1"}) {
         const std::string other = head + "P1,a,main,locate,\"2,3\",3,2,0.2,0.8," + wrong + "\n";

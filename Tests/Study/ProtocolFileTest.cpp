@@ -4,6 +4,7 @@
 #include "Lab/Files/Words.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/SimulatedObserver.h"
+#include "Support/Has.h"
 #include <gtest/gtest.h>
 #include <map>
 
@@ -112,10 +113,10 @@ TEST(ProtocolFile, VersionsAsPublishedMakeEveryChangeThatTheListKnows) {
         for (const ConditionPlan& condition : p.conditions)
             if (callSetOf(condition.stimuli) != nullptr) {
                 const std::string& call = callSetOf(condition.stimuli)->call;
-                EXPECT_NE(call.find(" --timing release --gamma 0.1"), call.npos) << call;
+                EXPECT_TRUE(has(call, " --timing release --gamma 0.1"));
                 EXPECT_EQ(call.ends_with("each --set drive_gain=1 --limiter blocks"), p.name[0] == 'e')
                     << call;
-                EXPECT_EQ(call.find("--sound-match rms"), call.npos) << call;
+                EXPECT_FALSE(has(call, "--sound-match rms"));
             }
     }
     EXPECT_EQ(names,

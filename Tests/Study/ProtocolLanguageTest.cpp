@@ -14,6 +14,7 @@
 #include "Stimuli/SeededRandom.h"
 #include "Study/StaircaseThreshold.h"
 #include "Support/FileTesting.h"
+#include "Support/Has.h"
 #include "TestPlaces.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -44,7 +45,7 @@ TEST(ProtocolLanguage, AVariableFollowsTheLevelInEveryCall) {
     for (std::size_t i = 0; i < 2; ++i) {
         const std::string& call = std::get<WrittenCall>(jobs[i]).words;
         const char* hz = trial.parts[i] == "higher" ? "--frequency 251.785082 " : "--frequency 200 ";
-        EXPECT_NE(call.find(hz), std::string::npos) << call;
+        EXPECT_TRUE(has(call, hz));
     }
 }
 
@@ -100,18 +101,13 @@ TEST(ProtocolLanguage, NamesAndFieldsThatCannotBeAreRefusedWithTheirPlace) {
     EXPECT_EQ(refused(frequencies(), "\"name\": \"hz\"", "\"name\": \"level_db\""),
               "own.json: conditions[0].variables: expected a name of its own for each, without braces, found "
               "level_db");
-    EXPECT_NE(refused(frequencies(), "{hz}", "{khz}").find("names of factors or variables"),
-              std::string::npos);
-    EXPECT_NE(refused(frequencies(), "\"at_0_db\": 200", "\"at_0_db\": 0").find("at_0_db: expected 1e-06"),
-              std::string::npos)
-        << refused(frequencies(), "\"at_0_db\": 200", "\"at_0_db\": 0");
+    EXPECT_TRUE(has(refused(frequencies(), "{hz}", "{khz}"), "names of factors or variables"));
+    EXPECT_TRUE(has(refused(frequencies(), "\"at_0_db\": 200", "\"at_0_db\": 0"), "at_0_db: expected 1e-06"));
     const std::string rate =
         R"({"physvib_protocol": 1, "name": "own", "conditions": [{"name": "c", "stimuli": "grid", "columns": 1, "rows": 1}],
   "sessions": [{"name": "main", "task": "rate", "scales": ["a"], "feedback": true}]})";
-    EXPECT_NE(readProtocol(rate, "own.json").error.find("sessions[0].feedback: expected it where"),
-              std::string::npos);
-    EXPECT_NE(refused(rate, "\"feedback\": true", "\"interval_s\": 0.5").find("sessions[0].interval_s"),
-              std::string::npos);
+    EXPECT_TRUE(has(readProtocol(rate, "own.json").error, "sessions[0].feedback: expected it where"));
+    EXPECT_TRUE(has(refused(rate, "\"feedback\": true", "\"interval_s\": 0.5"), "sessions[0].interval_s"));
 }
 
 // Kaernbach 1991: one down, one up, steps up three times as large: 3 (1 - p) = p at 75 %.
@@ -146,11 +142,10 @@ TEST(ProtocolLanguage, EqualRmsAndEnergyAreThoseOfTheSamples) {
             EXPECT_NEAR(job.peakFactor(205.0) * std::sqrt(squares), 1.0, 1e-6);
         }
     StimulusJob plain{PhantomJob{FieldPlace{0.5, 0.5}}};
-    EXPECT_EQ(textOf(plain).find("--decay"), std::string::npos) << "rows of before stay the same";
+    EXPECT_FALSE(has(textOf(plain), "--decay")) << "rows of before stay the same";
     std::get<PhantomJob>(plain.what).decayPerSecond = 30.0;
     std::get<PhantomJob>(plain.what).levelOf = LevelOf::energy;
-    EXPECT_NE(textOf(plain).find("--decay 30 --level-of energy --seconds 1"), std::string::npos)
-        << textOf(plain);
+    EXPECT_TRUE(has(textOf(plain), "--decay 30 --level-of energy --seconds 1"));
 }
 
 TEST(ProtocolLanguage, EqualWeightedLevelsAreThoseOfTheWeightedSamples) {
@@ -183,7 +178,7 @@ TEST(ProtocolLanguage, TheSchemaHasEveryFieldThatIsReadAndItsRange) {
          {"\"physvib_protocol\"", "\"variables\"", "\"at_0_db\"", "\"up_ratio\"", "\"interval_s\"",
           "\"feedback\"", "\"instruction\"", "\"stimuli\"", "\"additionalProperties\": false",
           "\"latin-square\"", "\"estimate\"", "\"if\"", "\"then\""})
-        EXPECT_NE(schema.find(words), std::string::npos) << words;
+        EXPECT_TRUE(has(schema, words));
     EXPECT_TRUE(readProtocol("{\"$schema\": \"protocol.schema.json\", " + frequencies().substr(1), "own"));
 }
 
@@ -200,8 +195,6 @@ std::vector<std::string> wordsOf(const Protocol& protocol, const TrialRecord& re
     return words;
 }
 
-bool holds(const std::string& text, const std::string& what) { return text.find(what) != std::string::npos; }
-
 TEST(ProtocolLanguage, ConstantStimuliMoveOneAlternativeAndHaveARightOne) {
     const Protocol protocol = example("frequency-constant");
     EXPECT_EQ(readProtocol(protocolJson(protocol), "again").value, protocol);
@@ -213,8 +206,7 @@ TEST(ProtocolLanguage, ConstantStimuliMoveOneAlternativeAndHaveARightOne) {
         const auto calls = wordsOf(protocol, {trial, {}});
         for (std::size_t i = 0; i < 2; ++i)
             EXPECT_TRUE(
-                holds(calls[i], "--frequency " + (trial.parts[i] == "higher" ? trial.stimulus : "200")))
-                << calls[i];
+                has(calls[i], "--frequency " + (trial.parts[i] == "higher" ? trial.stimulus : "200")));
         EXPECT_EQ(trial.partLevelsDb[0], trial.partLevelsDb[1]) << "both rove together";
         EXPECT_LE(std::abs(trial.partLevelsDb[0]), 3.0);
         roved.insert(trial.partLevelsDb[0]);
@@ -313,7 +305,7 @@ TEST(ProtocolLanguage, ATrialThatRunsOutOfTimeHasNoOtherAnswerAndMovesNoLevel) {
               std::vector<std::string>{"rows.csv: left out: 99 trials ran out of time, without an answer"});
     steps.sessions.front().staircase.reset(), steps.sessions.front().task = StudyTask::adjust;
     steps.sessions.front().adjustment = Adjustment{.alternative = "stronger"};
-    EXPECT_TRUE(holds(validate(steps), "answer_within_s: expected it of other tasks")) << validate(steps);
+    EXPECT_TRUE(has(validate(steps), "answer_within_s: expected it of other tasks"));
 }
 
 TEST(ProtocolLanguage, SideBySideTheReferenceComesOpenlyAndHidden) {
@@ -322,7 +314,7 @@ TEST(ProtocolLanguage, SideBySideTheReferenceComesOpenlyAndHidden) {
     for (const TrialRecord& record : ranThrough(protocol)) {
         const auto calls = wordsOf(protocol, record);
         ASSERT_EQ(calls.size(), 5u);
-        EXPECT_TRUE(holds(calls[0], "--frequency 200 "));
+        EXPECT_TRUE(has(calls[0], "--frequency 200 "));
         EXPECT_EQ(std::ranges::count(calls, calls[0]), 2);
         EXPECT_EQ(record.answer.scores.size(), 4u);
         orders.insert(callsOf(protocol, record).substr(calls[0].size()));
@@ -358,7 +350,7 @@ TEST(ProtocolLanguage, AnswersAreOfOneIntervalAndAVariableRovesAlone) {
         const auto g = [](const std::string& call) { return call.substr(call.find("--level-g")); };
         EXPECT_EQ(g(calls[0]), g(calls[1]));
         const auto standard = std::ranges::find(record.trial.parts, "standard") - record.trial.parts.begin();
-        EXPECT_TRUE(holds(calls[static_cast<std::size_t>(standard)], "--frequency 150 "));
+        EXPECT_TRUE(has(calls[static_cast<std::size_t>(standard)], "--frequency 150 "));
         levels.insert(record.trial.roveDb);
     }
     EXPECT_GT(levels.size(), 10u);
@@ -379,8 +371,8 @@ TEST(ProtocolLanguage, PracticeEndsAfterSoManyRightAnswersInARow) {
         EXPECT_EQ(experiment.sessionTrials(), 0) << "nobody knows";
         const std::string shown = experiment.trial().stimulus;
         ASSERT_TRUE(shown == "yes" || shown == "no") << shown;
-        EXPECT_TRUE(holds(wordsOf(protocol, {experiment.trial(), {}})[0],
-                          shown == "yes" ? "--level-g 0.05" : "--level-g 0.001"));
+        EXPECT_TRUE(has(wordsOf(protocol, {experiment.trial(), {}})[0],
+                        shown == "yes" ? "--level-g 0.05" : "--level-g 0.001"));
         Answer answer;
         answer.response = trials == 3 ? (shown == "yes" ? "no" : "yes") : shown;
         experiment.take(answer);
@@ -427,7 +419,7 @@ TEST(ProtocolLanguage, InterleavedStaircasesAreMixedAndEachGoesItsOwnWay) {
     EXPECT_TRUE(resumed.isDone());
     Protocol wrong = protocol;
     wrong.sessions.front().staircase->startsDb[1] = 12.0;
-    EXPECT_TRUE(holds(validate(wrong), "staircase: expected least_db <= start_db <= most_db"));
+    EXPECT_TRUE(has(validate(wrong), "staircase: expected least_db <= start_db <= most_db"));
 }
 
 TEST(ProtocolLanguage, AModulusComesFirstInEachTrial) {
@@ -437,8 +429,8 @@ TEST(ProtocolLanguage, AModulusComesFirstInEachTrial) {
         const Trial trial = experiment.trial();
         const auto calls = wordsOf(protocol, {trial, {}});
         ASSERT_EQ(calls.size(), 2u);
-        EXPECT_TRUE(holds(calls[0], "--level-g 0.2")) << calls[0];
-        EXPECT_TRUE(holds(calls[1], "--level-g " + trial.stimulus)) << calls[1];
+        EXPECT_TRUE(has(calls[0], "--level-g 0.2"));
+        EXPECT_TRUE(has(calls[1], "--level-g " + trial.stimulus));
         Answer answer;
         answer.value = 10.0;
         experiment.take(answer);
@@ -464,17 +456,16 @@ TEST(ProtocolLanguage, FactorsMayBeLeftOutAndFieldsThatDoNotFitAreRefused) {
     };
     using S = SessionPlan;
     using C = CallSet;
-    EXPECT_TRUE(holds(fault([](S& s, C&) { s.correct = "lower"; }), "correct: expected the name"));
+    EXPECT_TRUE(has(fault([](S& s, C&) { s.correct = "lower"; }), "correct: expected the name"));
     EXPECT_TRUE(
-        holds(fault([](S&, C& c) { c.call.replace(c.call.find("{g}"), 3, "0.2"), c.variables.clear(); }),
-              "expected {level_db} or a variable"));
-    EXPECT_TRUE(holds(fault([](S& s, C&) { s.modulus = "210"; }), "modulus: expected it of"));
-    EXPECT_TRUE(
-        holds(fault([](S& s, C&) { s.correct = {}, s.untilCorrect = 3; }), "until_correct: expected"));
-    EXPECT_TRUE(holds(fault([](S&, C& c) { c.factors[0].otherwise = {}; }), "alternative and otherwise"));
-    EXPECT_TRUE(holds(fault([](S&, C& c) { c.factors[0].labels = {"a"}; }), "a label of each value"));
+        has(fault([](S&, C& c) { c.call.replace(c.call.find("{g}"), 3, "0.2"), c.variables.clear(); }),
+            "expected {level_db} or a variable"));
+    EXPECT_TRUE(has(fault([](S& s, C&) { s.modulus = "210"; }), "modulus: expected it of"));
+    EXPECT_TRUE(has(fault([](S& s, C&) { s.correct = {}, s.untilCorrect = 3; }), "until_correct: expected"));
+    EXPECT_TRUE(has(fault([](S&, C& c) { c.factors[0].otherwise = {}; }), "alternative and otherwise"));
+    EXPECT_TRUE(has(fault([](S&, C& c) { c.factors[0].labels = {"a"}; }), "a label of each value"));
     wrong = example("strength-modulus");
-    EXPECT_TRUE(holds(fault([](S& s, C&) { s.modulus = "9"; }), "expected the modulus of session main"));
+    EXPECT_TRUE(has(fault([](S& s, C&) { s.modulus = "9"; }), "expected the modulus of session main"));
 }
 
 class TimesOfAStudy : public FolderTest {
@@ -506,11 +497,9 @@ TEST_F(TimesOfAStudy, OtherOutputsAreRefusedAndTheTrialFileHasNoTimes) {
     {
         StudyInProgress study{run()};
         ASSERT_EQ(study.error(), "");
-        EXPECT_NE(study.apparatusFault(with("1 2 3 7", "5 6"))
-                      .find("expected the outputs as in the trials before, 1 2 3 4, found 1 2 3 7"),
-                  std::string::npos);
-        EXPECT_NE(study.apparatusFault(with("1 2 3 4", "7 8")).find("the outputs of the noise"),
-                  std::string::npos);
+        EXPECT_TRUE(has(study.apparatusFault(with("1 2 3 7", "5 6")),
+                        "expected the outputs as in the trials before, 1 2 3 4, found 1 2 3 7"));
+        EXPECT_TRUE(has(study.apparatusFault(with("1 2 3 4", "7 8")), "the outputs of the noise"));
         ASSERT_EQ(study.apparatusFault(with("1 2 3 4", "5 6")), "");
         ASSERT_EQ(study.begin(with("1 2 3 4", "5 6")), "");
     }
@@ -523,7 +512,7 @@ TEST_F(TimesOfAStudy, OtherOutputsAreRefusedAndTheTrialFileHasNoTimes) {
     EXPECT_EQ(times.value[2].trials, 1);
     EXPECT_EQ(times.value[2].language, "ko");
     for (const StudyMoment& m : times.value) EXPECT_GT(secondsOf(m.timeUtc), 1.7e9) << m.timeUtc;
-    EXPECT_EQ(readFile(run().trialFile().string(), 1'000'000).value.find("5 6"), std::string::npos);
+    EXPECT_FALSE(has(readFile(run().trialFile().string(), 1'000'000).value, "5 6"));
 }
 
 TEST_F(TimesOfAStudy, ABreakGoesOnWhileTheWindowIsClosedAndAStudyEndsOnce) {

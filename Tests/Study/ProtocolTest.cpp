@@ -7,6 +7,7 @@
 #include "Lab/Study/Stimulus.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyTasks.h"
+#include "Support/Has.h"
 #include "TestPlaces.h"
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -257,8 +258,7 @@ TEST(StudyPlan, EveryPartOfEveryStimulusIsPlannedAtItsLowestAndHighestLevel) {
     for (const PlannedStimulus& s : planned)
         EXPECT_EQ(s.levelDb, s.part == "SV" ? -8.0 : s.isHighest ? -2.0 : -38.0) << s.part;
     const TrialJob job = planned.front().job(builtIn("model-or-sound"));
-    EXPECT_NE(std::get<WrittenCall>(job).words.find("--level-db -38"), std::string::npos)
-        << std::get<WrittenCall>(job).words;
+    EXPECT_TRUE(has(std::get<WrittenCall>(job).words, "--level-db -38"));
     EXPECT_EQ(plannedStimuli(builtIn("patterns")).size(), 2u * (28u + 78u + 168u));
     EXPECT_EQ(plannedStimuli(builtIn("eight-methods")).size(), 24u);
 }
@@ -364,8 +364,7 @@ TEST(StudyTasks, EachHasALineInTheTableOfProtocols) {
     const auto studies = readFile(PHYSVIB_SOURCE_DIR "/Docs/protocols.md", 1'000'000);
     ASSERT_TRUE(studies) << studies.error;
     for (const auto& task : studyTasks)
-        EXPECT_NE(studies.value.find("\n| `" + std::string{task.name} + "` | "), std::string::npos)
-            << task.name;
+        EXPECT_TRUE(has(studies.value, "\n| `" + std::string{task.name} + "` | ")) << task.name;
 }
 
 TEST(StudyTasks, NamesAreFoundAndOthersAreNot) {

@@ -154,7 +154,7 @@ TEST(QuestMethod, GoesOnAfterEveryCutWithTheLevelsThatWouldHaveBeen) {
     Experiment other{p, {}};
     TrialRecord moved = records.front();
     moved.trial.levelDb += 1.0;
-    EXPECT_EQ(other.redo(moved).rfind("expected the level ", 0), 0u)
+    EXPECT_TRUE(other.redo(moved).starts_with("expected the level "))
         << "a row of another level is another answer";
 }
 

@@ -2,6 +2,7 @@
 // Trials and percent counts from CSV: what counts, what is left out, what is refused.
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Files/StudyTables.h"
+#include "Support/Has.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
@@ -147,8 +148,7 @@ TEST(StudyCsv, OtherProgramsRowsThatAreThereTwiceAreRefusedAndPracticeIsTraining
     EXPECT_EQ(read("P,a,a,0.643,,\nP,a,a,0.642,,\nP,a,a,0.643,,\n"), "3") << "answers may be alike";
     std::vector<ColumnName> names{{"trial", "n"}};
     for (const char* name : {"participant", "stimulus", "response"}) names.push_back({name, name});
-    EXPECT_NE(read("P,a,a,1,1,\nP,b,a,2,1,\n", names).find("trial: expected each trial once"),
-              std::string::npos);
+    EXPECT_TRUE(has(read("P,a,a,1,1,\nP,b,a,2,1,\n", names), "trial: expected each trial once"));
     EXPECT_EQ(read("P,a,a,1,1,Practice\nP,b,a,2,1,warm-up\nP,b,a,2,1,before\n"), "1");
 }
 
@@ -230,8 +230,7 @@ TEST(StudyCsv, TrialsThatDidNotLeaveAreLeftOutAndTold) {
     ASSERT_TRUE(older) << older.error;
     EXPECT_EQ(older.value.conditions.front().trials.size(), 4u)
         << "silence that was asked for, rehearsals and other programs' trials stay";
-    EXPECT_NE(choices("P1,c,b,x,0|0,JACK:s,0\n").error.find("expected trials of this kind, found none"),
-              std::string::npos);
+    EXPECT_TRUE(has(choices("P1,c,b,x,0|0,JACK:s,0\n").error, "expected trials of this kind, found none"));
 }
 
 // Tables of experiment programs under our columns' names.

@@ -10,6 +10,7 @@
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/SimulatedObserver.h"
+#include "Support/Has.h"
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -203,7 +204,7 @@ TEST_F(TrialLogFiles, OfOlderVersionsGoOnInTheirOwnColumns) {
                 line.resize(line.size() - columns);
             old += line + "\n";
         }
-        ASSERT_EQ(old.find(newest), std::string::npos);
+        ASSERT_FALSE(has(old, newest));
         std::ofstream{path, std::ios::binary} << old.substr(0, old.size() / 2);
         goOn(p, [newest = newest](Answer& answer) {
             if (std::string{newest} != ",left,again")
@@ -219,7 +220,7 @@ TEST_F(TrialLogFiles, SayWithWhatTrialsWereFelt) {
     const Apparatus with{"1.0", "JACK:system", -6.0, -40.5};
     goOn(p, [&](Answer& answer) { answer.apparatus = with, answer.limiterDb = 1.25; });
     const std::string text = readFile(path, 1'000'000).value;
-    EXPECT_NE(text.find(",1.25,-6,-40.5,JACK:system,1.0,,\n"), std::string::npos) << text;
+    EXPECT_TRUE(has(text, ",1.25,-6,-40.5,JACK:system,1.0,,\n"));
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
     for (const TrialRecord& record : log.value.records) {
@@ -236,8 +237,8 @@ TEST_F(TrialLogFiles, SayWhetherEveryPartLeftAndGoOnAlike) {
         answer.again = n % 3;
     });
     const std::string text = readFile(path, 1'000'000).value;
-    EXPECT_NE(text.find(",0,0\n"), std::string::npos) << text;
-    EXPECT_NE(text.find(",1,2\n"), std::string::npos) << text;
+    EXPECT_TRUE(has(text, ",0,0\n"));
+    EXPECT_TRUE(has(text, ",1,2\n"));
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
     Experiment again{p, participant};
@@ -261,7 +262,7 @@ TEST_F(TrialLogFiles, KeepAnswersInWords) {
     ASSERT_EQ(log.value.records.size(), n);
     for (std::size_t i = 0; i < n; ++i)
         EXPECT_EQ(log.value.records[i].answer.response, words[i % words.size()]);
-    EXPECT_NE(readFile(path, 1'000'000).value.find(",'=1+1,"), std::string::npos) << "no formula";
+    EXPECT_TRUE(has(readFile(path, 1'000'000).value, ",'=1+1,")) << "no formula";
 }
 
 TEST_F(TrialLogFiles, HaveOneWriterAtATime) {

@@ -9,6 +9,7 @@
 #include "Live/Session/OfflineRender.h"
 #include "Studies/StudyCalls.h"
 #include "Studies/StudyCheck.h"
+#include "Support/Has.h"
 #include "Thesis/ThesisReport.h"
 #include <cmath>
 #include <gtest/gtest.h>
@@ -229,18 +230,15 @@ TEST(ThesisHits, WhatLimiterAndGuardTakeIsTold) {
          {fixedNumber(most, 1) + " g together",
           fixedNumber(100.0 * static_cast<double>(lower) / static_cast<double>(hits), 0) +
               " % of hits are weakened, at most to " + fixedNumber(100.0 * least, 0) + " %"})
-        EXPECT_NE(rowOf(ThesisPart::limiter).find(words), std::string::npos) << words;
+        EXPECT_TRUE(has(rowOf(ThesisPart::limiter), words));
     ASSERT_EQ(told.size(), 2U);
     for (const std::string& words : told) {
         EXPECT_TRUE(words.starts_with("rubber-concrete, AF-FV-DR")) << words;
-        EXPECT_NE(rowOf(ThesisPart::guard).find(words.substr(words.find(": ") + 2)), std::string::npos)
-            << words;
+        EXPECT_TRUE(has(rowOf(ThesisPart::guard), words.substr(words.find(": ") + 2))) << words;
     }
 }
 
 // What is printed and cannot be, what follows from it, and what is marked as simulated.
-
-bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 std::size_t count(const std::string& text, const std::string& words) {
     std::size_t times = 0;
@@ -254,9 +252,9 @@ TEST(Thesis, StandsBesideWhatFollowsFromIt) {
     EXPECT_EQ(count(transfer, ",NO: "), 1u) << transfer;
     EXPECT_TRUE(has(transfer.substr(transfer.rfind("RING-5x5")), "tolerance 1,25,2.62,")) << transfer;
     for (const char* line : {"PHONE-LINEAR,", "PHONE-LOGARITHM,", "RING-LINEAR,", "RING-LOGARITHM,"})
-        EXPECT_TRUE(has(resolutions, line)) << resolutions;
+        EXPECT_TRUE(has(resolutions, line));
     for (const char* grid : {",5 x 5,5 x 5,", ",5 x 4,5 x 4,", ",6 x 4,6 x 4,", ",7 x 4,7 x 4,"})
-        EXPECT_TRUE(has(resolutions, grid)) << resolutions;
+        EXPECT_TRUE(has(resolutions, grid));
     EXPECT_EQ(count(files.at("printed-tests.csv"), "Table 4.1;"), 24u);
 }
 

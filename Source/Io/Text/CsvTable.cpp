@@ -184,6 +184,12 @@ std::optional<std::size_t> CsvTable::column(std::string_view wanted) const noexc
     return static_cast<std::size_t>(found - columns.begin());
 }
 
+const std::string& CsvTable::cell(const CsvRow& row, std::string_view wanted) const {
+    static const std::string none;
+    const auto at = column(wanted);
+    return at ? row.cells[*at] : none;
+}
+
 std::string CsvTable::fault(const CsvRow& row, std::size_t at, std::string_view expected) const {
     return name + ":" + std::to_string(row.line) + ": column " + printable(columns[at]) + ": expected " +
            std::string(expected) + ", found " + inQuotes(row.cells[at]);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace physvib {
@@ -23,6 +24,9 @@ struct CsvTable {
     std::vector<CsvRow> rows; ///< each with as many cells as there are columns
 
     std::optional<std::size_t> column(std::string_view wanted) const noexcept;
+
+    /// The row's cell of that column; an empty one if there is no such column.
+    const std::string& cell(const CsvRow& row, std::string_view wanted) const;
 
     /// `name:17: column x: expected what, found "cell"`.
     std::string fault(const CsvRow& row, std::size_t column, std::string_view expected) const;
@@ -46,5 +50,16 @@ Result<CsvTable> loadCsvTable(const std::filesystem::path& path);
 /// Appends `text` as a cell, quoted if necessary, with an apostrophe if a spreadsheet would evaluate it as a
 /// formula (the reader removes it); control characters become spaces. Any thread.
 void appendCell(std::string& line, std::string_view text);
+
+/// These cells as a line with its end. Any thread.
+inline std::string csvLine(const auto& cells) {
+    std::string line;
+    bool isFirst = true;
+    for (const auto& cell : cells) {
+        if (!std::exchange(isFirst, false)) line += ',';
+        appendCell(line, cell);
+    }
+    return line + "\n";
+}
 
 } // namespace physvib

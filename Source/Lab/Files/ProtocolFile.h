@@ -204,18 +204,10 @@ inline Result<std::vector<StimulusLevel>> readStimulusLevels(std::string_view te
 inline std::string stimulusLevelsCsv(const std::vector<StimulusLevel>& levels, const Provenance& provenance) {
     std::string text = provenanceComment(provenance) +
                        "condition,stimulus,alternative,level_db,participants,standard_deviation\n";
-    for (const StimulusLevel& level : levels) {
-        for (const std::string* cell : {&level.condition, &level.stimulus, &level.alternative}) {
-            appendCell(text, *cell);
-            text += ',';
-        }
-        appendNumber(text, level.levelDb);
-        text += ',';
-        appendNumber(text, level.participants);
-        text += ',';
-        appendNumber(text, level.deviationDb);
-        text += '\n';
-    }
+    for (const StimulusLevel& level : levels)
+        text +=
+            csvLine(std::array{level.condition, level.stimulus, level.alternative, numberText(level.levelDb),
+                               std::to_string(level.participants), numberText(level.deviationDb)});
     return text;
 }
 

@@ -2,6 +2,7 @@
 // Readers for each kind of study table.
 #include "Lab/Files/StudyCsv.h"
 #include "Io/Text/CleanText.h"
+#include "Io/Text/NameList.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/Stimulus.h"
@@ -42,16 +43,7 @@ Result<Data> readAll(std::span<const NamedText> files, Take take) {
             if (auto fault = shared.add(rows.table()); !fault.empty()) throw StudyFault{std::move(fault)};
             data.isSimulated |= saysSimulated(rows.table());
             const std::size_t taken = take(rows, data);
-            if (rows.leftOut().rows > 0)
-                data.warnings.push_back(rows.table().name +
-                                        ": rows left out, with nothing in one of the named columns: " +
-                                        std::to_string(rows.leftOut().rows));
-            if (std::string words = rows.leftOut().stimuliWords(); !words.empty())
-                data.warnings.push_back(std::move(words));
-            if (rows.notLeft() > 0)
-                data.warnings.push_back(rows.table().name + ": " + notLeftWords(rows.notLeft()));
-            if (rows.ranOut() > 0)
-                data.warnings.push_back(rows.table().name + ": left out: " + ranOutWords(rows.ranOut()));
+            rows.warn(data.warnings);
             if (taken == 0)
                 throw StudyFault{rows.table().name + ": expected trials of this kind, found none"};
         }
@@ -73,44 +65,6 @@ void expectFewLabels(const std::string& file, const StudyData<IdentificationTria
                 throw StudyFault{file + ": expected at most " + std::to_string(limits::maxLabels) +
                                  " different stimuli and responses, found more"};
         }
-}
-
-std::size_t takeIdentification(const StudyRows& rows, StudyData<IdentificationTrial>& data) {
-    const auto stimulus = rows.required("stimulus"), response = rows.required("response");
-    const auto participant = rows.optional("participant");
-    std::size_t missing = 0;
-    const std::size_t taken = rows.each(AnswerKind::label, [&](const CsvRow& row) {
-        if (row.cells[response].empty() && !rows.text(row, stimulus).empty()) {
-            ++missing;
-            return;
-        }
-        conditionNamed(rows, data, rows.conditionOf(row))
-            .push_back({rows.text(row, stimulus), row.cells[response], StudyRows::textIf(row, participant)});
-    });
-    if (missing > 0)
-        data.warnings.push_back(rows.table().name + ": " + counted(missing, "trial") +
-                                " without a response left out");
-    expectFewLabels(rows.table().name, data);
-    return data.conditions.empty() ? 0 : taken;
-}
-
-std::size_t takeLocations(const StudyRows& rows, StudyData<LocationTrial>& data) {
-    for (const auto& [line, place] : {std::pair{"target_column", "target_x"}, {"target_row", "target_y"}})
-        if (!rows.optional(line) && rows.optional(place))
-            throw StudyFault{
-                rows.table().name + ": column " + place + ": expected at most " +
-                std::to_string(mostGridLines) +
-                " different places, found more; `physvib analyse places` takes targets on no grid"};
-    const auto column = rows.required("target_column"), row = rows.required("target_row"),
-               x = rows.required("x"), y = rows.required("y");
-    const auto participant = rows.optional("participant");
-    constexpr int most = static_cast<int>(mostGridLines);
-    return rows.each(AnswerKind::place, [&](const CsvRow& r) {
-        conditionNamed(rows, data, rows.conditionOf(r))
-            .push_back({rows.wholeNumber(r, column, 1, most), rows.wholeNumber(r, row, 1, most),
-                        rows.number(r, x, 0.0, 1.0), rows.number(r, y, 0.0, 1.0),
-                        StudyRows::textIf(r, participant)});
-    });
 }
 
 /// Target columns of our own trial files: a grid cell, and the render call that contains the grid.
@@ -136,46 +90,22 @@ struct OwnTargets {
 
 std::size_t takeOwnPlaces(const StudyRows& rows, const OwnTargets& targets, StudyData<PlaceTrial>& data) {
     const auto x = rows.required("x"), y = rows.required("y");
-    const auto stimulus = rows.optional("stimulus"), participant = rows.optional("participant");
     const std::string unit = "true places are those of the calls' grids, in shares of the field's width and "
                              "height, y downwards; a distance counts both shares alike";
     if (std::ranges::find(data.warnings, unit) == data.warnings.end()) data.warnings.push_back(unit);
     return rows.each(AnswerKind::place, [&](const CsvRow& row) {
         const FieldPlace truth = targets.placeIn(rows, row);
         conditionNamed(rows, data, rows.conditionOf(row))
-            .push_back({StudyRows::textIf(row, participant), StudyRows::textIf(row, stimulus), truth.x,
-                        truth.y, rows.number(row, x, 0.0, 1.0), rows.number(row, y, 0.0, 1.0)});
-    });
-}
-
-std::size_t takePlaces(const StudyRows& rows, StudyData<PlaceTrial>& data) {
-    if (const auto own = OwnTargets::of(rows)) return takeOwnPlaces(rows, *own, data);
-    constexpr double farthest = 1e9; // limit in any unit
-    const auto trueX = rows.required("target_x"), x = rows.required("x");
-    const auto trueY = rows.optional("target_y"), y = rows.optional("y"),
-               stimulus = rows.optional("stimulus"), participant = rows.optional("participant");
-    if (trueY.has_value() != y.has_value())
-        throw StudyFault{rows.table().name +
-                         ": expected both columns target_y and y, or none of them, found " +
-                         (y ? "y" : "target_y")};
-    return rows.each(AnswerKind::place, [&](const CsvRow& row) {
-        const auto number = [&](std::optional<std::size_t> column) {
-            return column ? rows.number(row, *column, -farthest, farthest) : 0.0;
-        };
-        PlaceTrial trial{
-            StudyRows::textIf(row, participant), {}, number(trueX), number(trueY), number(x), number(y)};
-        trial.target =
-            stimulus ? row.cells[*stimulus]
-                     : numberText(trial.trueX) + (trueY ? "," + numberText(trial.trueY) : std::string{});
-        conditionNamed(rows, data, rows.conditionOf(row)).push_back(std::move(trial));
+            .push_back({rows.named(row, "participant"), rows.named(row, "stimulus"), truth.x, truth.y,
+                        rows.number(row, x, 0.0, 1.0), rows.number(row, y, 0.0, 1.0)});
     });
 }
 
 constexpr char betweenKinds = '\n'; // in no cell
 
-/// Condition and stimulus, until nameKinds().
-std::string kindOf(const CsvRow& row, std::optional<std::size_t> stimulus, const std::string& condition) {
-    return condition + betweenKinds + StudyRows::textIf(row, stimulus);
+/// Until nameKinds().
+std::string kindOf(const std::string& condition, const std::string& stimulus) {
+    return condition + betweenKinds + stimulus;
 }
 
 /// Trials are told apart by condition or stimulus, or by words of both where both differ:
@@ -206,28 +136,6 @@ void nameKinds(std::vector<Trial>& trials, std::string Trial::*kind, const std::
     }
 }
 
-std::size_t takeChoices(const StudyRows& rows, StudyData<ChoiceTrial>& data) {
-    const auto named = rows.optional("choice");
-    const auto choice = named ? *named : rows.required("response");
-    const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
-               participant = rows.optional("participant");
-    const auto correct = rows.optional("correct"), level = rows.optional("level_db");
-    const auto parts = rows.optional("parts");
-    const bool isOwn = rows.optional(trialColumns::task).has_value();
-    std::size_t taken = 0;
-    rows.each(AnswerKind::choice, [&](const CsvRow& row) {
-        // Of adaptive levels the method makes the shares.
-        if (isOwn && correct && level && !row.cells[*correct].empty() && !row.cells[*level].empty()) return;
-        ++taken;
-        conditionNamed(rows, data, rows.sessionOf(row))
-            .push_back({StudyRows::textIf(row, participant),
-                        kindOf(row, stimulus, StudyRows::textIf(row, condition)), rows.text(row, choice),
-                        StudyRows::textIf(row, parts),
-                        isOwn ? std::string{} : StudyRows::textIf(row, stimulus)});
-    });
-    return taken;
-}
-
 /// Whether another program's column tells of people, as age does: one value of each, not of all, more rows.
 bool isOfPeople(const CsvTable& table, std::size_t column) {
     const auto who = table.column("participant");
@@ -253,8 +161,6 @@ std::vector<std::size_t> scaleColumns(const CsvTable& table, std::vector<std::st
 
 std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     const auto scales = scaleColumns(rows.table(), ratings.warnings);
-    const auto condition = rows.optional("condition"), stimulus = rows.optional("stimulus"),
-               participant = rows.optional("participant"), group = rows.optional(trialColumns::group);
     std::vector<std::string> names;
     for (const auto c : scales) names.push_back(rows.table().columns[c]);
     if (names.empty())
@@ -262,92 +168,86 @@ std::size_t takeRatings(const StudyRows& rows, RatingData& ratings) {
     if (!ratings.scales.empty() && ratings.scales != names)
         throw StudyFault{rows.table().name + ": expected the scales of the files before"};
     ratings.scales = names;
-    const bool isOne = stimulus && std::ranges::all_of(rows.table().rows, [&](const CsvRow& row) {
-                           return row.cells[*stimulus] == rows.table().rows.front().cells[*stimulus];
-                       });
-    const bool hasGroups = group && std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
-                               return !row.cells[*group].empty();
-                           });
+    const auto& all = rows.table().rows;
+    const auto groupOf = [&](const CsvRow& row) { return rows.named(row, trialColumns::group); };
+    const bool hasGroups = std::ranges::any_of(all, [&](const auto&row) { return !groupOf(row).empty(); }),
+               isOne = std::ranges::all_of(all, [&](const CsvRow&row) {
+                   return rows.named(row, "stimulus") == rows.named(all.front(), "stimulus");
+               });
     return rows.each(AnswerKind::scores, [&](const CsvRow& row) {
-        RatingTrial trial{
-            StudyRows::textIf(row, participant),
-            kindOf(row, hasGroups && isOne ? std::nullopt : stimulus, StudyRows::textIf(row, condition)),
-            {}};
+        RatingTrial trial{rows.named(row, "participant"),
+                          kindOf(rows.named(row, "condition"),
+                                 hasGroups && isOne ? std::string{} : rows.named(row, "stimulus")),
+                          {}};
         if (hasGroups)
             trial.condition.append(trial.condition.ends_with(betweenKinds) ? "group=" : " group=")
-                .append(row.cells[*group].empty() ? "not known" : row.cells[*group]);
+                .append(groupOf(row).empty() ? "not known" : groupOf(row));
         for (const auto c : scales) // of this session; others lack answers
             trial.scores.push_back(row.cells[c].empty() ? std::nan("") : rows.number(row, c, 0.0, 100.0));
         conditionNamed(rows, ratings, rows.sessionOf(row)).push_back(std::move(trial));
     });
 }
 
-/// The QUEST+ plan of a row; null for rows of other sessions.
-const std::string* questWordsOf(const StudyRows& rows, const CsvRow& row) {
-    const auto column = rows.optional(trialColumns::quest);
-    if (!column || row.cells[*column].empty()) return nullptr;
-    if (!questPlan(row.cells[*column]))
-        throw StudyFault{rows.table().fault(row, *column, "the words of a QUEST+ session")};
-    return &row.cells[*column];
-}
-
 /// A level trial, or nullopt if the row is of another kind.
 std::optional<LevelTrial> levelTrial(const StudyRows& rows, const CsvRow& row) {
-    const auto tasks = rows.optional(trialColumns::task);
+    const bool hasTasks = rows.optional(trialColumns::task).has_value();
     // tables of other programs have no task column and one kind of trial
-    const std::optional<AnswerKind> answer = tasks                    ? answerOf(row.cells[*tasks])
+    const std::optional<AnswerKind> answer = hasTasks ? answerOf(rows.named(row, trialColumns::task))
                                              : rows.optional("value") ? AnswerKind::number
                                                                       : AnswerKind::choice;
     if (answer != AnswerKind::level && answer != AnswerKind::number &&
-        (answer != AnswerKind::choice || row.cells[rows.required("correct")].empty() ||
-         (tasks && row.cells[rows.required("level_db")].empty())))
+        (answer != AnswerKind::choice || rows.cell(row, "correct").empty() ||
+         (hasTasks && rows.cell(row, "level_db").empty())))
         return std::nullopt;
-    LevelTrial trial{
-        answer == AnswerKind::level    ? LevelTrial::Kind::adjustment
-        : answer == AnswerKind::number ? LevelTrial::Kind::magnitude
-                                       : LevelTrial::Kind::staircase,
-        StudyRows::textIf(row, rows.optional("participant")), rows.conditionOf(row),
-        StudyRows::textIf(row, rows.optional(rows.optional("stimulus") ? "stimulus" : "level_db"))};
-    if (trial.kind == LevelTrial::Kind::staircase) {
-        trial.levelDb = rows.number(row, rows.required("level_db"), -1000.0, 1000.0);
-        trial.session = StudyRows::textIf(row, rows.optional("session"));
-        if (const auto mixed = rows.optional(trialColumns::staircase); mixed && !row.cells[*mixed].empty())
-            trial.session += "/" + row.cells[*mixed]; // a run of its own
-        trial.value = row.cells[rows.required("correct")] == "1" ? 1.0 : 0.0;
-        if (const std::string* const quest = questWordsOf(rows, row)) {
-            trial.kind = LevelTrial::Kind::quest;
-            trial.value = rows.wholeNumber(row, rows.required("correct"), 0, 1);
-            trial.quest = *quest;
-        }
-    } else
-        trial.value = rows.number(row, rows.required("value"),
+    LevelTrial trial{answer == AnswerKind::level    ? LevelTrial::Kind::adjustment
+                     : answer == AnswerKind::number ? LevelTrial::Kind::magnitude
+                                                    : LevelTrial::Kind::staircase,
+                     rows.named(row, "participant"), rows.conditionOf(row),
+                     rows.named(row, rows.optional("stimulus") ? "stimulus" : "level_db")};
+    if (trial.kind != LevelTrial::Kind::staircase) {
+        trial.value = rows.number(row, "value",
                                   trial.kind == LevelTrial::Kind::magnitude ? leastEstimate : -mostEstimate,
                                   mostEstimate);
+        return trial;
+    }
+    trial.levelDb = rows.number(row, "level_db", -1000.0, 1000.0);
+    trial.session = rows.named(row, "session");
+    if (const auto mixed = rows.named(row, trialColumns::staircase); !mixed.empty())
+        trial.session += "/" + mixed; // a run of its own
+    trial.value = rows.cell(row, "correct") == "1" ? 1.0 : 0.0;
+    trial.quest = rows.named(row, trialColumns::quest);
+    if (trial.quest.empty()) return trial;
+    if (!questPlan(trial.quest))
+        throw StudyFault{
+            rows.table().fault(row, rows.required(trialColumns::quest), "the words of a QUEST+ session")};
+    trial.kind = LevelTrial::Kind::quest;
+    trial.value = rows.wholeNumber(row, "correct", 0, 1);
     return trial;
 }
 
 std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
     std::size_t taken = 0, ofTraining = 0, zeros = 0;
     std::set<std::string> whose;
-    const auto task = rows.optional(trialColumns::task);
-    if (!task && !rows.optional("value")) rows.required("correct");
-    const auto phase = rows.optional(trialColumns::phase);
+    const bool hasTasks = rows.optional(trialColumns::task).has_value(),
+               hasValues = rows.optional("value").has_value();
+    if (!hasTasks && !hasValues) rows.required("correct");
     const auto isTraining = [&](const CsvRow& row) {
-        return phase && row.cells[*phase] == trialColumns::training;
+        return rows.named(row, trialColumns::phase) == trialColumns::training;
     };
+    const auto answerIn = [&](const CsvRow& row) { return answerOf(rows.named(row, trialColumns::task)); };
     // Levels that are only matched before the study are no training of matching.
     const bool hasMatches = std::ranges::any_of(rows.table().rows, [&](const CsvRow& row) {
-        return task && answerOf(row.cells[*task]) == AnswerKind::level && !isTraining(row);
+        return answerIn(row) == AnswerKind::level && !isTraining(row);
     });
     for (const CsvRow& row : rows.table().rows) {
-        const auto answer = task ? answerOf(row.cells[*task]) : std::nullopt;
+        const auto answer = answerIn(row);
         if (isTraining(row) && (answer != AnswerKind::level || hasMatches)) continue;
         if (answer == AnswerKind::wish) continue; // explorations have no stimulus
-        if (task ? answer == AnswerKind::number : rows.optional("value").has_value()) {
-            const std::string& value = row.cells[rows.required("value")];
+        if (hasTasks ? answer == AnswerKind::number : hasValues) {
+            const std::string& value = rows.cell(row, "value");
             const bool isZero = parseNumber<double>(value) == 0.0;
             if (zeros += isZero; isZero) {
-                const std::string who = cleanLine(StudyRows::textIf(row, rows.optional("participant")));
+                const std::string who = cleanLine(rows.named(row, "participant"));
                 whose.insert(who.empty() ? who : inSession(who, cleanLine(rows.conditionOf(row))));
             }
             if (isZero || value.empty()) continue;
@@ -359,7 +259,7 @@ std::size_t takeLevelTrial(const StudyRows& rows, StudyData<LevelTrial>& data) {
         }
     }
     if (ofTraining > 0) data.warnings.emplace_back("levels were set in a training, and no others: it counts");
-    if (taken > 0 && !rows.optional("stimulus") && rows.optional("level_db") && rows.optional("value"))
+    if (taken > 0 && !rows.optional("stimulus") && rows.optional("level_db") && hasValues)
         data.warnings.push_back(rows.table().name + " has no column stimulus: level_db (dB) stands for it");
     if (zeros > 0)
         data.warnings.push_back(counted(zeros, "magnitude") + " of 0, which has no logarithm, left out" +
@@ -403,9 +303,7 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
     const auto measure = rows.required(columns.measure.substr(0, words));
     const auto level = LevelSource::of(rows.table(), columns.level);
     if (!level) rows.required(columns.level);
-    const auto participant = rows.optional("participant");
-    const bool isFactor = columns.level == "level_db" && !rows.optional(trialColumns::task);
-    const auto stimulus = isFactor ? rows.optional("stimulus") : std::nullopt; // of other programs
+    const bool isFactor = columns.level == "level_db" && !rows.optional(trialColumns::task); // of others
     // Levels of our own files' right and wrong choices were chosen by the answers, which tell no function.
     const auto moved = rows.optional("level_db");
     const bool isOwn = rows.optional(trialColumns::task) && columns.measure == "correct" && moved;
@@ -428,8 +326,9 @@ std::size_t takeLevelAnswers(const StudyRows& rows, StudyData<LevelAnswer>& data
                               : words != std::string::npos
                                   ? row.cells[measure] == columns.measure.substr(words + 1)
                                   : rows.wholeNumber(row, measure, 0, 1);
-        conditionNamed(rows, data, kindOf(row, stimulus, rows.conditionOf(row)))
-            .push_back({StudyRows::textIf(row, participant), *at, answer});
+        conditionNamed(rows, data,
+                       kindOf(rows.conditionOf(row), isFactor ? rows.named(row, "stimulus") : std::string{}))
+            .push_back({rows.named(row, "participant"), *at, answer});
     });
     return taken;
 }
@@ -449,41 +348,94 @@ std::vector<std::size_t> countColumns(const StudyRows& rows) {
     return columns;
 }
 
-std::size_t takePercentCounts(const StudyRows& rows, StudyData<PercentCounts>& data) {
-    const auto condition = rows.required("condition"), row = rows.required("row");
-    const auto columns = countColumns(rows);
-    return rows.each(std::nullopt, [&](const CsvRow& r) {
-        auto& grids = conditionNamed(rows, data, rows.text(r, condition));
-        if (grids.empty()) grids.push_back({r.cells[condition], 0, columns.size(), {}});
-        PercentCounts& grid = grids.front();
-        const int next = static_cast<int>(++grid.rows);
-        if (grid.columns != columns.size())
-            throw StudyFault{rows.table().fault(r, condition, "as many columns as in the file before")};
-        if (grid.rows > mostGridLines)
-            throw StudyFault{
-                rows.table().fault(r, row, "at most " + std::to_string(mostGridLines) + " rows")};
-        if (rows.wholeNumber(r, row, 1, static_cast<int>(mostGridLines)) != next)
-            throw StudyFault{rows.table().fault(r, row, "row " + std::to_string(next) + " of the condition")};
-        for (const auto c : columns) grid.percent.push_back(rows.number(r, c, 0.0, 100.0));
-    });
-}
-
 } // namespace
 
 Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedText> files) {
-    return readAll<StudyData<IdentificationTrial>>(files, takeIdentification);
+    return readAll<StudyData<IdentificationTrial>>(files, [](const StudyRows& rows, auto& data) {
+        const auto stimulus = rows.required("stimulus"), response = rows.required("response");
+        std::size_t missing = 0;
+        const std::size_t taken = rows.each(AnswerKind::label, [&](const CsvRow& row) {
+            if (row.cells[response].empty() && !rows.text(row, stimulus).empty()) {
+                ++missing;
+                return;
+            }
+            conditionNamed(rows, data, rows.conditionOf(row))
+                .push_back({rows.text(row, stimulus), row.cells[response], rows.named(row, "participant")});
+        });
+        if (missing > 0)
+            data.warnings.push_back(rows.table().name + ": " + counted(missing, "trial") +
+                                    " without a response left out");
+        expectFewLabels(rows.table().name, data);
+        return data.conditions.empty() ? 0 : taken;
+    });
 }
 
 Result<StudyData<LocationTrial>> readLocations(std::span<const NamedText> files) {
-    return readAll<StudyData<LocationTrial>>(files, takeLocations);
+    return readAll<StudyData<LocationTrial>>(files, [](const StudyRows& rows, auto& data) {
+        for (const auto& [line, place] : {std::pair{"target_column", "target_x"}, {"target_row", "target_y"}})
+            if (!rows.optional(line) && rows.optional(place))
+                throw StudyFault{
+                    rows.table().name + ": column " + place + ": expected at most " +
+                    std::to_string(mostGridLines) +
+                    " different places, found more; `physvib analyse places` takes targets on no grid"};
+        const auto column = rows.required("target_column"), line = rows.required("target_row"),
+                   x = rows.required("x"), y = rows.required("y");
+        constexpr int most = static_cast<int>(mostGridLines);
+        return rows.each(AnswerKind::place, [&](const CsvRow& row) {
+            conditionNamed(rows, data, rows.conditionOf(row))
+                .push_back({rows.wholeNumber(row, column, 1, most), rows.wholeNumber(row, line, 1, most),
+                            rows.number(row, x, 0.0, 1.0), rows.number(row, y, 0.0, 1.0),
+                            rows.named(row, "participant")});
+        });
+    });
 }
 
 Result<StudyData<PlaceTrial>> readPlaces(std::span<const NamedText> files) {
-    return readAll<StudyData<PlaceTrial>>(files, takePlaces);
+    return readAll<StudyData<PlaceTrial>>(files, [](const StudyRows& rows, auto& data) {
+        if (const auto own = OwnTargets::of(rows)) return takeOwnPlaces(rows, *own, data);
+        constexpr double farthest = 1e9; // limit in any unit
+        const auto trueX = rows.required("target_x"), x = rows.required("x");
+        const auto trueY = rows.optional("target_y"), y = rows.optional("y");
+        const bool hasNames = rows.optional("stimulus").has_value();
+        if (trueY.has_value() != y.has_value())
+            throw StudyFault{rows.table().name +
+                             ": expected both columns target_y and y, or none of them, found " +
+                             (y ? "y" : "target_y")};
+        return rows.each(AnswerKind::place, [&](const CsvRow& row) {
+            const auto number = [&](std::optional<std::size_t> column) {
+                return column ? rows.number(row, *column, -farthest, farthest) : 0.0;
+            };
+            PlaceTrial trial{rows.named(row, "participant"),
+                             rows.named(row, "stimulus"),
+                             number(trueX),
+                             number(trueY),
+                             number(x),
+                             number(y)};
+            if (!hasNames)
+                trial.target =
+                    numberText(trial.trueX) + (trueY ? "," + numberText(trial.trueY) : std::string{});
+            conditionNamed(rows, data, rows.conditionOf(row)).push_back(std::move(trial));
+        });
+    });
 }
 
 Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) {
-    auto data = readAll<StudyData<ChoiceTrial>>(files, takeChoices);
+    auto data = readAll<StudyData<ChoiceTrial>>(files, [](const StudyRows& rows, auto& all) {
+        const auto choice = rows.optional("choice") ? rows.required("choice") : rows.required("response");
+        const bool isOwn = rows.optional(trialColumns::task).has_value();
+        std::size_t taken = 0;
+        rows.each(AnswerKind::choice, [&](const CsvRow& row) {
+            // Of adaptive levels the method makes the shares.
+            if (isOwn && !rows.named(row, "correct").empty() && !rows.named(row, "level_db").empty()) return;
+            ++taken;
+            conditionNamed(rows, all, rows.sessionOf(row))
+                .push_back({rows.named(row, "participant"),
+                            kindOf(rows.named(row, "condition"), rows.named(row, "stimulus")),
+                            rows.text(row, choice), rows.named(row, "parts"),
+                            isOwn ? std::string{} : rows.named(row, "stimulus")});
+        });
+        return taken;
+    });
     for (auto& all : data.value.conditions) nameKinds(all.trials, &ChoiceTrial::condition);
     return data;
 }
@@ -507,7 +459,24 @@ Result<StudyData<LevelAnswer>> readLevelAnswers(std::span<const NamedText> files
 }
 
 Result<StudyData<PercentCounts>> readPercentCounts(std::span<const NamedText> files) {
-    return readAll<StudyData<PercentCounts>>(files, takePercentCounts);
+    return readAll<StudyData<PercentCounts>>(files, [](const StudyRows& rows, auto& data) {
+        const auto condition = rows.required("condition"), row = rows.required("row");
+        const auto columns = countColumns(rows);
+        return rows.each(std::nullopt, [&](const CsvRow& r) {
+            auto& grids = conditionNamed(rows, data, rows.text(r, condition));
+            if (grids.empty()) grids.push_back({r.cells[condition], 0, columns.size(), {}});
+            PercentCounts& grid = grids.front();
+            const int next = static_cast<int>(++grid.rows);
+            const auto expect = [&](bool isSo, std::size_t column, const std::string& words) {
+                if (!isSo) throw StudyFault{rows.table().fault(r, column, words)};
+            };
+            expect(grid.columns == columns.size(), condition, "as many columns as in the file before");
+            expect(grid.rows <= mostGridLines, row, "at most " + std::to_string(mostGridLines) + " rows");
+            expect(rows.wholeNumber(r, row, 1, static_cast<int>(mostGridLines)) == next, row,
+                   "row " + std::to_string(next) + " of the condition");
+            for (const auto c : columns) grid.percent.push_back(rows.number(r, c, 0.0, 100.0));
+        });
+    });
 }
 
 std::string percentCountsCsv(std::span<const PercentCounts> counts, const Provenance& provenance) {

@@ -85,20 +85,23 @@ public:
         if (!read) throw StudyFault{std::move(read.error)};
         table_ = std::move(read.value);
         if (kept == Kept::all) return;
-        const LeftRows rows{table_};
         std::erase_if(table_.rows, [&](const CsvRow& row) {
             const bool isLate = named(row, trialColumns::ranOut) == "1";
             ranOut_ += isLate && named(row, trialColumns::phase) != trialColumns::training;
             return isLate;
         });
-        notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return rows.didNotLeave(row); });
+        notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return didNotLeave(table_, row); });
     }
 
-    const RowsLeftOut& leftOut() const noexcept { return leftOut_; }
-
-    std::size_t notLeft() const noexcept { return notLeft_; } ///< rows that did not leave as planned
-
-    std::size_t ranOut() const noexcept { return ranOut_; } ///< main trials without an answer in time
+    /// What of the table is left out, a line each.
+    void warn(std::vector<std::string>& warnings) const {
+        if (leftOut_.rows > 0)
+            warnings.push_back(table_.name + ": rows left out, with nothing in one of the named columns: " +
+                               std::to_string(leftOut_.rows));
+        if (std::string words = leftOut_.stimuliWords(); !words.empty()) warnings.push_back(std::move(words));
+        if (notLeft_ > 0) warnings.push_back(table_.name + ": " + notLeftWords(notLeft_));
+        if (ranOut_ > 0) warnings.push_back(table_.name + ": left out: " + ranOutWords(ranOut_));
+    }
 
     const CsvTable& table() const { return table_; }
 
@@ -124,13 +127,24 @@ public:
         return taken;
     }
 
-    const std::string& text(const CsvRow& row, std::size_t column) const {
-        if (row.cells[column].empty()) throw StudyFault{table_.fault(row, column, "a label")};
-        return row.cells[column];
+    const std::string& named(const CsvRow& row, std::string_view column) const {
+        return table_.cell(row, column);
     }
 
-    static std::string textIf(const CsvRow& row, std::optional<std::size_t> column) {
-        return column ? row.cells[*column] : std::string{};
+    // Columns are given by their place, or by a name that is required.
+    const std::string& cell(const CsvRow& row, auto column) const { return row.cells[placeOf(column)]; }
+
+    const std::string& text(const CsvRow& row, auto column) const {
+        if (cell(row, column).empty()) throw StudyFault{table_.fault(row, placeOf(column), "a label")};
+        return cell(row, column);
+    }
+
+    double number(const CsvRow& row, auto column, double least, double most) const {
+        return numberIn(row, placeOf(column), least, most, "a number");
+    }
+
+    int wholeNumber(const CsvRow& row, auto column, int least, int most) const {
+        return numberIn(row, placeOf(column), least, most, "a whole number");
     }
 
     /// Sessions by what their rows are: training, kind of answer, whether answers chose levels, by QUEST+.
@@ -152,25 +166,17 @@ public:
         return inSession(named(row, "condition"), sessionOf(row));
     }
 
-    double number(const CsvRow& row, std::size_t column, double least, double most) const {
-        const auto found = parseNumber<double>(row.cells[column]);
-        if (!found || *found < least || *found > most)
-            throw StudyFault{table_.fault(
-                row, column, "a number from " + plainNumber(least) + " to " + plainNumber(most))};
-        return *found;
-    }
-
-    int wholeNumber(const CsvRow& row, std::size_t column, int least, int most) const {
-        const auto found = parseNumber<int>(row.cells[column]);
-        if (!found || *found < least || *found > most)
-            throw StudyFault{table_.fault(
-                row, column, "a whole number from " + std::to_string(least) + " to " + std::to_string(most))};
-        return *found;
-    }
-
 private:
-    std::string named(const CsvRow& row, std::string_view column) const {
-        return textIf(row, optional(column));
+    static std::size_t placeOf(std::size_t column) { return column; }
+    std::size_t placeOf(std::string_view column) const { return required(column); }
+    template <class Number>
+    Number numberIn(const CsvRow& row, std::size_t column, Number least, Number most,
+                    const std::string& what) const {
+        const auto found = parseNumber<Number>(row.cells[column]);
+        if (!found || *found < least || *found > most)
+            throw StudyFault{
+                table_.fault(row, column, what + " from " + plainNumber(least) + " to " + plainNumber(most))};
+        return *found;
     }
     Sessions::key_type kindOf(const CsvRow& row) const {
         return {named(row, trialColumns::phase) == trialColumns::training,

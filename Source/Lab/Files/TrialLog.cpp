@@ -11,6 +11,7 @@
 #include "Lab/Files/StudyTables.h"
 #include <chrono>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 namespace physvib {
@@ -87,22 +88,13 @@ Cells cellsOf(const Protocol& protocol, const Participant& participant, const Tr
     return cells;
 }
 
-std::string headerOf(const std::vector<std::string>& names) {
-    std::string line;
-    for (const auto& name : names) {
-        if (!line.empty()) line += ',';
-        appendCell(line, name);
-    }
-    return line + "\n";
-}
-
 /// Columns of the header `line` (with its line end): all of `names`, or those of older versions; else empty.
 std::vector<std::string> columnsIn(std::string_view line, std::vector<std::string> names) {
     for (const auto isNewer : {columns::isReceipt, columns::isApparatus, columns::isMeasured}) {
-        if (line == headerOf(names)) return names;
+        if (line == csvLine(names)) return names;
         std::erase_if(names, isNewer);
     }
-    return line == headerOf(names) ? names : std::vector<std::string>{};
+    return line == csvLine(names) ? names : std::vector<std::string>{};
 }
 
 /// Reads the rows of a table back into records. Throws StudyFault.
@@ -114,52 +106,44 @@ public:
 
     TrialRecord read(const CsvRow& row) const {
         TrialRecord record;
-        Trial& trial = record.trial;
+        auto& [trial, answer] = record;
         trial.condition = indexOf(row, "condition", protocol_.conditions);
         trial.session = indexOf(row, "session", protocol_.sessions);
         const SessionPlan& session = protocol_.sessions[trial.session];
         trial.task = session.task;
-        trial.number = rows_.wholeNumber(row, rows_.required("trial"), 1, std::numeric_limits<int>::max());
-        trial.stimulus = cell(row, "stimulus");
-        if (session.correct.empty())
-            trial.levelDb = rows_.number(row, rows_.required("level_db"), -1000.0, 1000.0);
-        record.answer.response = cell(row, session.answer() == AnswerKind::choice ? "choice" : "response");
-        record.answer.plays = 1 + rows_.wholeNumber(row, rows_.required("replays"), 0, 1'000'000);
-        record.answer.seconds = rows_.number(row, rows_.required("response_s"), 0.0, 1e9);
-        if (!cell(row, "x").empty())
-            record.answer.place = FieldPlace{rows_.number(row, rows_.required("x"), 0.0, 1.0),
-                                             rows_.number(row, rows_.required("y"), 0.0, 1.0)};
-        if (!cell(row, "value").empty())
-            record.answer.value = rows_.number(row, rows_.required("value"), -mostEstimate, mostEstimate);
-        if (const auto exposure = rows_.optional(columns::exposure);
-            exposure && !row.cells[*exposure].empty())
-            record.answer.exposure = rows_.number(row, *exposure, 0.0, 1e6);
-        readApparatus(row, record.answer);
-        if (const auto left = rows_.optional(columns::left); left && !row.cells[*left].empty()) {
-            record.answer.left = rows_.wholeNumber(row, *left, 0, 1) == 1;
-            record.answer.again = rows_.wholeNumber(row, rows_.required(columns::again), 0, 1'000'000);
+        trial.number = rows_.wholeNumber(row, "trial", 1, std::numeric_limits<int>::max());
+        trial.stimulus = rows_.cell(row, "stimulus");
+        if (session.correct.empty()) trial.levelDb = rows_.number(row, "level_db", -1000.0, 1000.0);
+        answer.response = rows_.cell(row, session.answer() == AnswerKind::choice ? "choice" : "response");
+        answer.plays = 1 + rows_.wholeNumber(row, "replays", 0, 1'000'000);
+        answer.seconds = rows_.number(row, "response_s", 0.0, 1e9);
+        if (!rows_.cell(row, "x").empty())
+            answer.place = FieldPlace{rows_.number(row, "x", 0.0, 1.0), rows_.number(row, "y", 0.0, 1.0)};
+        if (!rows_.cell(row, "value").empty())
+            answer.value = rows_.number(row, "value", -mostEstimate, mostEstimate);
+        if (!rows_.named(row, columns::exposure).empty())
+            answer.exposure = rows_.number(row, columns::exposure, 0.0, 1e6);
+        readApparatus(row, answer);
+        if (!rows_.named(row, columns::left).empty()) {
+            answer.left = rows_.wholeNumber(row, columns::left, 0, 1) == 1;
+            answer.again = rows_.wholeNumber(row, columns::again, 0, 1'000'000);
         }
-        if (session.answerSeconds > 0.0)
-            record.answer.ranOut = rows_.wholeNumber(row, rows_.required(columns::ranOut), 0, 1) == 1;
+        if (session.answerSeconds > 0.0) answer.ranOut = rows_.wholeNumber(row, columns::ranOut, 0, 1) == 1;
         for (const auto& scale : session.scores())
-            if (!record.answer.ranOut)
-                record.answer.scores.push_back(rows_.number(row, rows_.required(scale), 0.0, 100.0));
+            if (!answer.ranOut) answer.scores.push_back(rows_.number(row, scale, 0.0, 100.0));
         return record;
     }
 
 private:
     void readApparatus(const CsvRow& row, Answer& answer) const {
-        if (!rows_.optional(columns::version) || cell(row, columns::version).empty()) return;
+        if (rows_.named(row, columns::version).empty()) return;
         Apparatus& with = answer.apparatus.emplace();
-        with.version = cell(row, columns::version);
-        with.device = cell(row, columns::device);
-        with.masterDb = rows_.number(row, rows_.required(columns::masterDb), -1000.0, 1000.0);
-        if (cell(row, columns::noiseDb) != columns::noNoise)
-            with.noiseDb = rows_.number(row, rows_.required(columns::noiseDb), -1000.0, 0.0);
-        answer.limiterDb = rows_.number(row, rows_.required(columns::limiterDb), 0.0, 1000.0);
-    }
-    const std::string& cell(const CsvRow& row, std::string_view column) const {
-        return row.cells[rows_.required(column)];
+        with.version = rows_.cell(row, columns::version);
+        with.device = rows_.cell(row, columns::device);
+        with.masterDb = rows_.number(row, columns::masterDb, -1000.0, 1000.0);
+        if (rows_.cell(row, columns::noiseDb) != columns::noNoise)
+            with.noiseDb = rows_.number(row, columns::noiseDb, -1000.0, 0.0);
+        answer.limiterDb = rows_.number(row, columns::limiterDb, 0.0, 1000.0);
     }
     template <class Item>
     std::size_t indexOf(const CsvRow& row, std::string_view column, const std::vector<Item>& items) const {
@@ -207,7 +191,7 @@ std::string trialHeader(const Protocol& protocol, const Participant& participant
                                            {"participant", participant.code},
                                            {"number", std::to_string(participant.number)},
                                            {"observer", participant.observer}}});
-    return text + headerOf(trialColumnsOf(protocol));
+    return text + csvLine(trialColumnsOf(protocol));
 }
 
 std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
@@ -229,14 +213,8 @@ std::vector<std::string> trialColumnsOf(const Protocol& protocol) {
 
 std::string trialRow(const Protocol& protocol, const Participant& participant, const TrialRecord& record,
                      std::span<const std::string> names) {
-    const Cells cells = cellsOf(protocol, participant, record);
-    std::string row;
-    bool isFirst = true;
-    for (const auto& column : names) {
-        if (!std::exchange(isFirst, false)) row += ',';
-        if (const auto found = cells.find(column); found != cells.end()) appendCell(row, found->second);
-    }
-    return row + "\n";
+    Cells cells = cellsOf(protocol, participant, record);
+    return csvLine(std::views::transform(names, [&](const auto& name) { return cells[name]; }));
 }
 
 Result<TrialLog> readTrialLog(std::string_view text, std::string_view name, const Protocol& protocol,
@@ -307,24 +285,21 @@ bool TrialLogFile::append(const TrialRecord& record) {
 
 namespace {
 
-constexpr std::string_view header = "time_utc,event,trials,language,outputs,noise_outputs";
-
 std::string twoDigits(auto number) {
     const std::string digits = std::to_string(number);
     return digits.size() < 2 ? "0" + digits : digits;
 }
 
 StudyMoment momentOf(const detail::StudyRows& rows, const CsvRow& row) {
-    const auto cell = [&](std::string_view column) { return row.cells[rows.required(column)]; };
-    if (!(secondsOf(cell("time_utc")) >= 0.0))
+    if (!(secondsOf(rows.cell(row, "time_utc")) >= 0.0))
         throw detail::StudyFault{
             rows.table().fault(row, rows.required("time_utc"), "a time like 2026-11-24T14:02:31Z")};
-    return {cell("time_utc"),
-            rows.text(row, rows.required("event")),
-            rows.wholeNumber(row, rows.required("trials"), 0, std::numeric_limits<int>::max()),
-            cell("language"),
-            cell("outputs"),
-            cell("noise_outputs")};
+    return {rows.cell(row, "time_utc"),
+            rows.text(row, "event"),
+            rows.wholeNumber(row, "trials", 0, std::numeric_limits<int>::max()),
+            rows.cell(row, "language"),
+            rows.cell(row, "outputs"),
+            rows.cell(row, "noise_outputs")};
 }
 
 } // namespace
@@ -384,17 +359,12 @@ Result<std::vector<StudyMoment>> loadStudyTimes(const std::filesystem::path& pat
 }
 
 std::string writeStudyTimes(const std::filesystem::path& path, const std::vector<StudyMoment>& moments) {
-    std::string text{header};
-    for (const StudyMoment& m : moments) {
-        text += '\n' + m.timeUtc;
-        for (const std::string& cell :
-             {m.event, std::to_string(m.trials), m.language, m.outputs, m.noiseOutputs}) {
-            text += ',';
-            appendCell(text, cell);
-        }
-    }
+    std::string text{"time_utc,event,trials,language,outputs,noise_outputs\n"};
+    for (const StudyMoment& m : moments)
+        text += csvLine(
+            std::array{m.timeUtc, m.event, std::to_string(m.trials), m.language, m.outputs, m.noiseOutputs});
     AtomicFile file{path};
-    if (const std::string& fault = file.write(text + "\n"); !fault.empty()) return fault;
+    if (const std::string& fault = file.write(text); !fault.empty()) return fault;
     return file.commit();
 }
 

@@ -133,19 +133,16 @@ constexpr std::string_view noNoise = "off"; ///< cell of noise_db without noise
 constexpr std::string_view left = "left", again = "again";
 inline constexpr std::array<std::string_view, 2> receipts{left, again};
 
-constexpr bool isReceipt(std::string_view name) {
-    return std::ranges::find(receipts, name) != receipts.end();
+constexpr bool isIn(const auto& list, std::string_view name) {
+    return std::ranges::find(list, name) != list.end();
 }
-constexpr bool isMeasured(std::string_view name) {
-    return std::ranges::find(measured, name) != measured.end();
-}
-constexpr bool isApparatus(std::string_view name) {
-    return std::ranges::find(apparatus, name) != apparatus.end();
-}
+constexpr bool isReceipt(std::string_view name) { return isIn(receipts, name); }
+constexpr bool isMeasured(std::string_view name) { return isIn(measured, name); }
+constexpr bool isApparatus(std::string_view name) { return isIn(apparatus, name); }
 constexpr bool has(std::string_view name) {
     return name == quest || name == staircase || name == ranOut || name == group || name == "target_x" ||
            name == "target_y" || isMeasured(name) || isApparatus(name) || isReceipt(name) ||
-           std::ranges::find(names, name) != names.end();
+           isIn(names, name);
 }
 } // namespace physvib::trialColumns
 
@@ -161,38 +158,27 @@ TrialHead trialHeadOf(const std::vector<std::string>& comments);
 // Tells which rows of a table are of trials that did not leave as planned, and so are evidence of nothing.
 
 /// By the column `left`. Of rows without it, by a part whose peak is 0 though a device was open and its call
-/// does not ask for silence. Any thread; the table outlives it.
-class LeftRows {
-public:
-    explicit LeftRows(const CsvTable& table)
-        : left_{table.column(trialColumns::left)}
-        , peaks_{table.column(trialColumns::peakG)}
-        , device_{table.column(trialColumns::device)}
-        , calls_{table.column(trialColumns::render)} {}
-
-    bool didNotLeave(const CsvRow& row) const {
-        if (left_ && !row.cells[*left_].empty()) return row.cells[*left_] == "0";
-        if (!peaks_ || !device_ || row.cells[*device_].empty() || row.cells[*device_].starts_with("None:"))
-            return false;
-        std::string_view peaks = row.cells[*peaks_], calls = calls_ ? row.cells[*calls_] : std::string_view{};
-        while (!peaks.empty()) {
-            const std::string_view peak = takeUntil('|', peaks), call = calls.substr(0, calls.find(" ; "));
-            calls.remove_prefix(std::min(call.size() + 3, calls.size()));
-            if (parseNumber<double>(peak) == 0.0 && !asksForSilence(call)) return true;
-        }
-        return false;
-    }
-
-private:
-    static bool asksForSilence(std::string_view call) {
+/// does not ask for silence. Any thread.
+inline bool didNotLeave(const CsvTable& table, const CsvRow& row) {
+    if (const auto& left = table.cell(row, trialColumns::left); !left.empty()) return left == "0";
+    const auto& device = table.cell(row, trialColumns::device);
+    if (device.empty() || device.starts_with("None:")) return false;
+    const auto asksForSilence = [](std::string_view call) {
         constexpr std::string_view option = "--level-db ";
         const auto at = call.find(option);
         if (at == std::string_view::npos) return false;
         std::string_view rest = call.substr(at + option.size());
         return parseNumber<double>(takeUntil(' ', rest)).value_or(0.0) <= -limits::maxLevelDb;
+    };
+    std::string_view peaks = table.cell(row, trialColumns::peakG),
+                     calls = table.cell(row, trialColumns::render);
+    while (!peaks.empty()) {
+        const std::string_view peak = takeUntil('|', peaks), call = calls.substr(0, calls.find(" ; "));
+        calls.remove_prefix(std::min(call.size() + 3, calls.size()));
+        if (parseNumber<double>(peak) == 0.0 && !asksForSilence(call)) return true;
     }
-    std::optional<std::size_t> left_, peaks_, device_, calls_;
-};
+    return false;
+}
 
 /// "3 trials ran out of time, without an answer". Any thread.
 inline std::string ranOutWords(std::size_t trials) {

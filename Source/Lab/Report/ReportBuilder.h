@@ -137,9 +137,7 @@ public:
     explicit Cells(const CsvTable& table)
         : table_{table} {}
     const std::string& operator()(const CsvRow& row, std::string_view column) const {
-        static const std::string none;
-        const auto at = table_.column(column);
-        return at ? row.cells[*at] : none;
+        return table_.cell(row, column);
     }
     bool has(std::string_view column) const { return table_.column(column).has_value(); }
 

@@ -127,9 +127,9 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
         trials.files.push_back(std::move(file));
     }
     trials.all = joinedRows(trials.files);
-    const LeftRows left{trials.all};
-    const auto notLeft = std::stable_partition(trials.all.rows.begin(), trials.all.rows.end(),
-                                               [&](const CsvRow& row) { return !left.didNotLeave(row); });
+    const auto notLeft =
+        std::stable_partition(trials.all.rows.begin(), trials.all.rows.end(),
+                              [&](const CsvRow& row) { return !didNotLeave(trials.all, row); });
     trials.notLeft.assign(std::make_move_iterator(notLeft), std::make_move_iterator(trials.all.rows.end()));
     trials.all.rows.erase(notLeft, trials.all.rows.end());
     if (trials.all.rows.empty())
@@ -179,14 +179,7 @@ std::string takeFacts(ReportTrials& trials, StudyFacts facts) {
 
 std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) {
     std::string text = firstLine;
-    const auto addRow = [&](const std::vector<std::string>& cells) {
-        for (std::size_t c = 0; c < cells.size(); ++c) {
-            if (c > 0) text += ',';
-            appendCell(text, cells[c]);
-        }
-        text += '\n';
-    };
-    addRow(trials.all.columns);
+    text += csvLine(trials.all.columns);
     std::map<std::string, std::string> offered; // answers to one stimulus, which stand in no row
     if (trials.protocol)
         for (const SessionPlan& session : trials.protocol->sessions)
@@ -198,7 +191,7 @@ std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) 
         auto cells = row.cells;
         if (const auto found = offered.find(cell(row, "session")); parts && found != offered.end())
             cells[*parts] = found->second;
-        addRow(cells);
+        text += csvLine(cells);
     }
     return text;
 }

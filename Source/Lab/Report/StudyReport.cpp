@@ -10,6 +10,7 @@
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyTasks.h"
+#include <ranges>
 #include <set>
 
 namespace physvib {
@@ -71,43 +72,22 @@ std::vector<std::string> inPoints(const ReportTrials& trials) {
 
 /// What analysis.R wrote: a table for each test, then what was left out, and what was not tested.
 void tellTests(ReportPage& page, const CsvTable& all) {
-    struct Column {
-        std::string_view name, heading = name; // the page has headings of its own for some names
-    };
-    using Columns = std::vector<Column>;
-    const Columns ofTests{{"effect"},
-                          {"statistic"},
-                          {"df1"},
-                          {"df2"},
-                          {"value"},
-                          {"p"},
-                          {"correction"},
-                          {"epsilon"},
-                          {"p_corrected"},
-                          {"across"},
-                          {"p_across"},
-                          {"size"},
-                          {"effect_size"},
-                          {"n"},
-                          {"difference"},
-                          {"least", "95 % interval, least"},
-                          {"most", "95 % interval, most"},
-                          {"note"}},
-        ofMeans{{"effect", "level"}, {"statistic"}, {"value"}, {"effect_size", "SD"}, {"n"}},
-        ofNotes{{"test", "of"}, {"effect", "what"}, {"n", "n kept"}, {"note", "which"}},
-        ofNone{{"test"}, {"effect"}, {"n"}, {"note", "why"}};
+    // names of columns, some with a heading of the page's own
+    constexpr std::string_view ofTests =
+        "effect|statistic|df1|df2|value|p|correction|epsilon|p_corrected|across|p_across|size|effect_size|n|"
+        "difference|least=95 % interval, least|most=95 % interval, most|note";
     const Cells cell{all};
-    const auto show = [&](const Columns& columns, const auto& isOf) {
-        std::string csv;
-        const auto add = [&](auto cellOf) {
-            for (std::size_t i = 0; i < columns.size(); ++i)
-                csv += i > 0 ? "," : "", appendCell(csv, cellOf(columns[i]));
-            csv += '\n';
-        };
-        add([](const Column& column) { return column.heading; });
+    const auto show = [&](std::string_view columns, const auto& isOf) {
+        std::vector<std::string_view> names, headings;
+        while (!columns.empty()) {
+            std::string_view heading = takeUntil('|', columns);
+            names.push_back(takeUntil('=', heading));
+            headings.push_back(heading.empty() ? names.back() : heading);
+        }
+        std::string csv = csvLine(headings);
         for (const CsvRow& row : all.rows)
             if (isOf(row))
-                add([&](const Column& column) { return std::string_view{cell(row, column.name)}; });
+                csv += csvLine(std::views::transform(names, [&](auto name) { return cell(row, name); }));
         page.table(csv, testsTable, 200);
     };
     const auto isTest = [&](const CsvRow& row) {
@@ -118,16 +98,17 @@ void tellTests(ReportPage& page, const CsvTable& all) {
         const bool isMean = cell(one, "kind") == "mean";
         if ((!isMean && !isTest(one)) || !told.insert(cell(one, "test")).second) continue;
         page.subheading(cell(one, "test"));
-        show(isMean ? ofMeans : ofTests, [&](const CsvRow& row) {
+        show(isMean ? "effect=level|statistic|value|effect_size=SD|n" : ofTests, [&](const CsvRow& row) {
             return cell(row, "test") == cell(one, "test") && (isMean || isTest(row));
         });
     }
     page.subheading("Left out of tests, averaged over, chance");
-    show(ofNotes, [&](const CsvRow& row) { return cell(row, "kind") == "note"; });
+    show("test=of|effect=what|n=n kept|note=which",
+         [&](const CsvRow& row) { return cell(row, "kind") == "note"; });
     const auto isNone = [&](const CsvRow& row) { return cell(row, "kind") == "not made"; };
     if (std::ranges::none_of(all.rows, isNone)) return;
     page.subheading("Not tested");
-    show(ofNone, isNone);
+    show("test|effect|n|note=why", isNone);
 }
 
 /// What the protocol calls the one thing that tells stimuli apart; empty: several, or none.

@@ -244,33 +244,26 @@ plannedTime(const Protocol& protocol,
     return time;
 }
 
-OrderBalance orderBalance(const std::vector<std::vector<std::string>>& orders) {
-    std::map<std::pair<std::string, std::size_t>, int> atPlace;
-    std::set<std::pair<std::string, std::string>> successions;
-    std::set<std::string> names;
-    for (const auto& order : orders)
+OrderBalance orderBalance(const Protocol& protocol, int participants) {
+    std::map<std::pair<std::size_t, std::size_t>, int> atPlace; // by condition and place
+    std::set<std::pair<std::size_t, std::size_t>> successions;
+    for (int number = 1; number <= participants; ++number) {
+        const auto order = conditionOrder(protocol, number);
         for (std::size_t place = 0; place < order.size(); ++place) {
-            names.insert(order[place]), ++atPlace[{order[place], place}];
+            ++atPlace[{order[place], place}];
             if (place > 0) successions.emplace(order[place - 1], order[place]);
         }
-    const int count = static_cast<int>(names.size());
-    OrderBalance balance{static_cast<int>(orders.size()), 0, static_cast<int>(successions.size()),
-                         count * (count - 1)};
-    for (const std::string& name : names)
-        for (std::size_t place = 0; place < names.size(); ++place) {
-            const int times = atPlace[{name, place}];
+    }
+    const std::size_t count = protocol.conditions.size();
+    OrderBalance balance{participants, 0, static_cast<int>(successions.size()),
+                         static_cast<int>(count * (count - 1))};
+    for (std::size_t condition = 0; condition < count; ++condition)
+        for (std::size_t place = 0; place < count; ++place) {
+            const int times = atPlace[{condition, place}];
             balance.fewestAtPlace = std::min(balance.fewestAtPlace, times);
             balance.mostAtPlace = std::max(balance.mostAtPlace, times);
         }
     return balance;
-}
-
-OrderBalance orderBalance(const Protocol& protocol, int participants) {
-    std::vector<std::vector<std::string>> orders(static_cast<std::size_t>(participants));
-    for (int number = 1; number <= participants; ++number)
-        for (const std::size_t at : conditionOrder(protocol, number))
-            orders[static_cast<std::size_t>(number - 1)].push_back(protocol.conditions[at].name);
-    return orderBalance(orders);
 }
 
 } // namespace physvib

@@ -71,7 +71,5 @@ struct OrderBalance {
 
 /// Any thread (allocates).
 OrderBalance orderBalance(const Protocol& protocol, int participants);
-/// Of the conditions' names in each participant's order, as planned or as run.
-OrderBalance orderBalance(const std::vector<std::vector<std::string>>& orders);
 
 } // namespace physvib
