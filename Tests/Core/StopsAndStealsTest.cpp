@@ -18,14 +18,7 @@ constexpr int rate = 8000;
 
 CollisionEvent tone(std::int64_t timeNs, double amplitude, std::int64_t durationNs = 0,
                     double decayPerSecond = 30.0, double frequencyHz = 60.0) {
-    CollisionEvent event;
-    event.timeNs = timeNs;
-    event.frequencyHz = frequencyHz;
-    event.decayPerSecond = decayPerSecond;
-    event.amplitude = amplitude;
-    event.durationNs = durationNs;
-    event.x = event.y = 0.5;
-    return event;
+    return {timeNs, frequencyHz, decayPerSecond, amplitude, 0.5, 0.5, durationNs, {}};
 }
 
 PhantomPanner grips() {
@@ -116,18 +109,6 @@ TEST(FullBank, StealsTheModeThatIsQuietestNow) {
         }
 }
 
-struct ListsSource {
-    test::ListSource events;
-    std::vector<RenderControl> controls;
-    bool pop(CollisionEvent& event) noexcept { return events.pop(event); }
-    bool pop(RenderControl& control) noexcept {
-        if (controls.empty()) return false;
-        control = controls.front();
-        controls.erase(controls.begin());
-        return true;
-    }
-};
-
 /// Of four actuators, which those controls change.
 test::Channels rendered(const std::vector<CollisionEvent>& events, const std::vector<RenderControl>& controls,
                         int frames) {
@@ -136,14 +117,8 @@ test::Channels rendered(const std::vector<CollisionEvent>& events, const std::ve
                                     .panner = {test::gridLayout(2, 2), PanningLaw::linear, 1.0, 1.0, 1.0}};
     auto renderer = std::make_unique<HapticRenderer>();
     EXPECT_TRUE(renderer->prepare(settings));
-    ListsSource source{{events}, controls};
-    test::Channels all(4, std::vector<float>(static_cast<std::size_t>(frames)));
-    for (int done = 0; done < frames; done += 80) {
-        std::vector<float*> at;
-        for (auto& channel : all) at.push_back(channel.data() + done);
-        renderer->render(source, at.data(), 80);
-    }
-    return all;
+    test::Session session{events, controls};
+    return test::renderBlocks(*renderer, session, 4, frames, {80});
 }
 
 test::Channels renderedWith(const std::vector<RenderControl>& controls) {
@@ -158,12 +133,7 @@ double peak(const test::Channels& channels, int from, int to) {
 }
 
 RenderControl control(RenderControl::Kind kind, int channel, float value) {
-    RenderControl one;
-    one.timeNs = 10 * ms;
-    one.kind = kind;
-    one.channel = channel;
-    one.value = value;
-    return one;
+    return {10 * ms, kind, channel, value};
 }
 
 TEST(ControlsOutOfRange, ChangeNothingAndTheirNeighboursDo) {
