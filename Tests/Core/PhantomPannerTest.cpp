@@ -88,6 +88,7 @@ TEST(PhantomPanner, CentreOfFourIs6dBDownLinearAnd9Point3Logarithmic) {
                 -6.02, 0.01);
     EXPECT_NEAR(10 * std::log10(sumOfSquares(gainsOf(preset("phone4"), PanningLaw::log, W / 2, H / 2))),
                 -9.26, 0.01);
+    EXPECT_NEAR(sumOfSquares(gainsOf(preset("ring4"), PanningLaw::energy, W / 2, H / 2)), 1.0, 1e-9);
 }
 
 TEST(PhantomPanner, TriangleIsBarycentricAndProjectsWhatLiesOutside) {
