@@ -15,9 +15,8 @@
 #include <typeinfo>
 #include <utility>
 
-// Listener that receives Box2D's callbacks for an attachment and forwards them to the game's own listeners.
-
 namespace physvib {
+
 /// Listens to one b2World, and forwards every call to the listeners that were set before.
 ///
 /// A world keeps bare pointers to its listeners and does not announce its destruction. So a listener may be
@@ -76,23 +75,7 @@ private:
     b2DestructionListener* chainedEnds_ = nullptr;
     const void* callFor_ = nullptr; // object of the call that is being forwarded
 };
-} // namespace physvib
-// A look at a world's haptic sources, to explain why they touch nothing.
 
-class b2World;
-
-namespace physvib {
-
-class FixtureTable;
-struct ContactCounts;
-
-/// Notes the sources that are sensors, filtered from every other fixture, disabled or asleep. World thread
-/// (M), not inside a step.
-void noteSources(const b2World& world, const FixtureTable& fixtures, ContactCounts& counts);
-
-} // namespace physvib
-
-namespace physvib {
 namespace {
 
 // A world may call a listener for as long as the program runs.
@@ -106,6 +89,42 @@ void keepForEver(std::unique_ptr<WorldListener> listener) {
     auto* const kept = new Kept{std::move(listener), newest.load()};
     while (!newest.compare_exchange_weak(kept->next, kept)) {
     }
+}
+
+// As b2ContactFilter decides.
+bool mayTouch(const b2Filter& a, const b2Filter& b) noexcept {
+    if (a.groupIndex == b.groupIndex && a.groupIndex != 0) return a.groupIndex > 0;
+    return (a.maskBits & b.categoryBits) != 0 && (a.categoryBits & b.maskBits) != 0;
+}
+
+bool isFiltered(const b2World& world, const b2Fixture& source) {
+    bool hasOthers = false;
+    for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+        for (const b2Fixture* f = body->GetFixtureList(); f != nullptr && body != source.GetBody();
+             f = f->GetNext()) {
+            if (mayTouch(source.GetFilterData(), f->GetFilterData())) return false;
+            hasOthers = true;
+        }
+    return hasOthers;
+}
+
+std::optional<EngineNote> noteOf(const b2World& world, const b2Fixture& source) {
+    const b2Body& body = *source.GetBody();
+    if (!body.IsEnabled()) return EngineNote::disabled;
+    if (source.IsSensor()) return EngineNote::sensor;
+    if (isFiltered(world, source)) return EngineNote::filtered;
+    if (body.GetType() != b2_staticBody && !body.IsAwake()) return EngineNote::asleep;
+    return {};
+}
+
+// Notes the sources that are sensors, filtered from every other fixture, disabled or asleep. It starts from
+// the world's own lists, because a fixture in the table may have been destroyed unseen. Not inside a step.
+void noteSources(const b2World& world, const FixtureTable& fixtures, ContactCounts& counts) {
+    for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+        for (const b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext())
+            if (const std::int32_t slot = fixtures.find(idOf(*f));
+                slot != FixtureTable::none && fixtures.isCamera(slot))
+                if (const auto note = noteOf(world, *f)) counts.note(*note, fixtures[slot].id);
 }
 
 } // namespace
@@ -244,49 +263,6 @@ std::string Attachment::explain(const OutputFacts* output) {
 
 const ImpactModel& Attachment::impactModel() const noexcept { return parts_->events.impactModel(); }
 
-// Finds haptic sources that Box2D lets touch nothing. It starts from the world's own lists, because a
-// fixture in the table may have been destroyed unseen.
-
-namespace {
-
-// As b2ContactFilter decides.
-bool mayTouch(const b2Filter& a, const b2Filter& b) noexcept {
-    if (a.groupIndex == b.groupIndex && a.groupIndex != 0) return a.groupIndex > 0;
-    return (a.maskBits & b.categoryBits) != 0 && (a.categoryBits & b.maskBits) != 0;
-}
-
-bool isFiltered(const b2World& world, const b2Fixture& source) {
-    bool hasOthers = false;
-    for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
-        for (const b2Fixture* f = body->GetFixtureList(); f != nullptr && body != source.GetBody();
-             f = f->GetNext()) {
-            if (mayTouch(source.GetFilterData(), f->GetFilterData())) return false;
-            hasOthers = true;
-        }
-    return hasOthers;
-}
-
-std::optional<EngineNote> noteOf(const b2World& world, const b2Fixture& source) {
-    const b2Body& body = *source.GetBody();
-    if (!body.IsEnabled()) return EngineNote::disabled;
-    if (source.IsSensor()) return EngineNote::sensor;
-    if (isFiltered(world, source)) return EngineNote::filtered;
-    if (body.GetType() != b2_staticBody && !body.IsAwake()) return EngineNote::asleep;
-    return {};
-}
-
-} // namespace
-
-void noteSources(const b2World& world, const FixtureTable& fixtures, ContactCounts& counts) {
-    for (const b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
-        for (const b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext())
-            if (const std::int32_t slot = fixtures.find(idOf(*f));
-                slot != FixtureTable::none && fixtures.isCamera(slot))
-                if (const auto note = noteOf(world, *f)) counts.note(*note, fixtures[slot].id);
-}
-} // namespace physvib
-
-namespace physvib {
 /// A game's listener may forward calls to the listener that it replaced, which may be this one: each call is
 /// processed once.
 class WorldListener::Call {
@@ -411,4 +387,5 @@ bool WorldListener::remove(b2World& world) {
     if (ends == this) world.SetDestructionListener(chainedEnds_);
     return contacts == this && ends == this;
 }
+
 } // namespace physvib

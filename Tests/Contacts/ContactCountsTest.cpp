@@ -23,7 +23,11 @@ ContactCounts tenContacts() {
     return counts;
 }
 
-void made(ContactCounts& counts, double x, double y) { counts.made({1, x, y, x, y}); }
+void made(ContactCounts& counts, double x, double y = 0.5) { counts.made({1, x, y, x, y}); }
+
+void expectSays(const std::string& text, const std::string& words) {
+    EXPECT_NE(text.find(words), std::string::npos) << text;
+}
 
 TEST(ContactCounts, AreTheLinesThatArePromised) {
     ContactCounts counts = tenContacts();
@@ -49,20 +53,18 @@ TEST(ContactCounts, NameTheMostFrequentReason) {
         counts.*most = 7;
         return explain(counts);
     };
-    EXPECT_NE(reason(&ContactCounts::belowThreshold).find("slower than the threshold of 0.15 m/s"),
-              std::string::npos);
-    EXPECT_NE(reason(&ContactCounts::unplayable).find("set frequency_hz and decay_per_s"), std::string::npos);
-    EXPECT_NE(reason(&ContactCounts::muted).find("muted"), std::string::npos);
-    EXPECT_NE(reason(&ContactCounts::dropped).find("left out"), std::string::npos);
-    EXPECT_NE(reason(&ContactCounts::events).find("7 events were made"), std::string::npos);
-    EXPECT_NE(explain({}).find("No step"), std::string::npos);
+    expectSays(reason(&ContactCounts::belowThreshold), "slower than the threshold of 0.15 m/s");
+    expectSays(reason(&ContactCounts::unplayable), "set frequency_hz and decay_per_s");
+    expectSays(reason(&ContactCounts::muted), "muted");
+    expectSays(reason(&ContactCounts::dropped), "left out");
+    expectSays(reason(&ContactCounts::events), "7 events were made");
+    expectSays(explain({}), "No step");
     ContactCounts unfelt = tenContacts();
     unfelt.hasSources = false;
-    EXPECT_NE(explain(unfelt).find("haptic source: set is_camera"), std::string::npos);
-    EXPECT_NE(inNames(explain(unfelt), Names::cpp).find("haptic source: set isCamera"), std::string::npos);
-    EXPECT_NE(inNames(explain(unfelt), Names::scene).find("haptic source: set camera"), std::string::npos);
-    EXPECT_NE(inNames(explain(unfelt), Names::mixer).find("with Select, tick 'haptic source' of"),
-              std::string::npos);
+    expectSays(explain(unfelt), "haptic source: set is_camera");
+    expectSays(inNames(explain(unfelt), Names::cpp), "haptic source: set isCamera");
+    expectSays(inNames(explain(unfelt), Names::scene), "haptic source: set camera");
+    expectSays(inNames(explain(unfelt), Names::mixer), "with Select, tick 'haptic source' of");
 }
 
 TEST(ContactCounts, NameTheOptionOfTheCommandLine) {
@@ -83,8 +85,7 @@ TEST(ContactCounts, ExplainWhatCameSince) {
     EXPECT_EQ(explain(since, ever).find("No contact has begun in 3 steps"), 0u) << explain(since, ever);
     since.note(EngineNote::asleep, 4);
     since.note(EngineNote::asleep, 5);
-    EXPECT_NE(explain(since, ever).find("body 5 (and 1 other source) is asleep"), std::string::npos)
-        << explain(since, ever);
+    expectSays(explain(since, ever), "body 5 (and 1 other source) is asleep");
 }
 
 // A device that was opened without a field spans centimetres: what a world of metres makes lies outside.
@@ -93,17 +94,15 @@ TEST(ContactCounts, NameWhereEventsLieWhichTheFieldMustSpan) {
     counts.fieldWidthMetres = 20.0;
     made(counts, 3.0, 0.5);
     made(counts, 19.8, 0.25);
-    EXPECT_NE(explain(counts).find("2 events were made, at x 3 to 19.8 m, y 0.25 to 0.5 m: nothing is "
-                                   "wrong in this world. What plays it was not looked at: the field of the "
-                                   "renderer or device must span these places"),
-              std::string::npos)
-        << explain(counts);
+    expectSays(explain(counts), "2 events were made, at x 3 to 19.8 m, y 0.25 to 0.5 m: nothing is "
+                                "wrong in this world. What plays it was not looked at: the field of the "
+                                "renderer or device must span these places");
     other.fieldWidthMetres = 200.0;
     made(other, -1.0, 9.0);
     EXPECT_EQ((counts += tenContacts()).events, 2u);
     counts += other;
     EXPECT_EQ(counts.events, 3u);
-    EXPECT_NE(explain(counts).find("at x -1 to 19.8 m, y 0.25 to 9 m"), std::string::npos) << explain(counts);
+    expectSays(explain(counts), "at x -1 to 19.8 m, y 0.25 to 9 m");
     counts.events = ~std::uint64_t{0};
     counts.leastX = counts.leastY = -1.23456e-100;
     counts.mostX = counts.mostY = -1.23456e-101;
@@ -134,13 +133,10 @@ Texts namesOf(const std::string& text) {
 /// What is well, but for one thing.
 template <class Change>
 ContactCounts but(Change change) {
-    ContactCounts counts;
-    counts.contacts = 10;
-    counts.steps = 20;
-    counts.hasSources = true;
+    ContactCounts counts = tenContacts();
     counts.longestStepSeconds = 0.01;
     counts.gravityMetresPerSecond2 = 9.81;
-    counts.thresholdMetresPerSecond = counts.wantedThreshold = 0.15;
+    counts.wantedThreshold = 0.15;
     counts.fieldWidthMetres = 1.0;
     change(counts);
     return counts;
@@ -170,24 +166,12 @@ std::vector<ContactCounts> allReasons() {
         but([](C& c) { c.belowThreshold = c.motionless = 1; }),
         but([](C& c) { c.belowThreshold = c.parting = 1; }),
         but([](C& c) { c.belowThreshold = 1, c.gravityMetresPerSecond2 = 981.0; }),
-        but([](C& c) {
-            c.made({1, 400.0, 0.5, 400.0, 0.5});
-        }),
-        but([](C& c) {
-            c.made({1, 3.0, 0.5, 3.0, 0.5});
-        }),
-        but([](C& c) {
-            c.made({1, 3.0, 0.5, 3.0, 0.5}), c.fieldWidthMetres = 2.0;
-        }),
-        but([](C& c) {
-            c.made({1, 0.5, 0.5, 0.5, 0.5}), c.longestStepSeconds = 0.1;
-        }),
-        but([](C& c) {
-            c.made({1, 0.5, 0.5, 0.5, 0.5}), c.fastestApproach = 100.0;
-        }),
-        but([](C& c) {
-            c.made({1, 0.5, 0.5, 0.5, 0.5});
-        }),
+        but([](C& c) { made(c, 400.0); }),
+        but([](C& c) { made(c, 3.0); }),
+        but([](C& c) { made(c, 3.0), c.fieldWidthMetres = 2.0; }),
+        but([](C& c) { made(c, 0.5), c.longestStepSeconds = 0.1; }),
+        but([](C& c) { made(c, 0.5), c.fastestApproach = 100.0; }),
+        but([](C& c) { made(c, 0.5); }),
     };
 }
 

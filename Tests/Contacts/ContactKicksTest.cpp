@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Kicks through contacts that last: what rests on a flipper, a platform, a lever or a plunger, or touches in
 // a row, is struck without having parted. What rests, rides or is carried is silent.
-#include "Contacts/ContactFeed.h"
+#include "FedWorld.h"
 #include <array>
-#include <cmath>
 #include <functional>
-#include <gtest/gtest.h>
-#include <vector>
 
 namespace physvib {
 namespace {
@@ -17,11 +14,11 @@ enum class Telling { impulses, impulseOfPair, speeds, springs, motions };
 /// Bodies on a line, each touching the next one; without bounce. Number 0 is driven.
 class Row {
 public:
-    Row(Telling telling, int rate, double g, std::vector<double> masses, int sweeps = 200)
+    Row(Telling telling, int rate, double gravity, std::vector<double> masses, int sweeps = 200)
         : telling_(telling)
         , rate_(rate)
         , sweeps_(sweeps)
-        , g_(g)
+        , g_(gravity)
         , masses_(std::move(masses))
         , speeds_(masses_.size())
         , places_(masses_.size()) {
@@ -53,12 +50,6 @@ public:
 
 private:
     static constexpr double apart = 0.2;
-    static ImpactSettings unity() {
-        ImpactSettings settings;
-        settings.normalisation = 1.0;
-        settings.handMassKg = 0.0;
-        return settings;
-    }
     bool isTouching(std::size_t i) const { return places_[i + 1] - places_[i] < apart + 1e-3; }
 
     void step() {
@@ -119,8 +110,6 @@ private:
     std::int64_t now_ = 0;
     ContactFeed feed_{unity()};
 };
-
-constexpr double g = 9.81;
 
 class Kicks : public testing::TestWithParam<std::tuple<Telling, int>> {
 protected:

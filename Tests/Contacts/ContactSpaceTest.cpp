@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Contacts in space: a plane that is turned gives the same events, and bodies turn about every axis.
-#include "Contacts/ContactFeed.h"
+#include "FedWorld.h"
 #include <array>
-#include <cmath>
-#include <gtest/gtest.h>
 #include <random>
 
 namespace physvib {
 namespace {
 
 constexpr std::int64_t stepNs = 10'000'000;
-constexpr HapticFixture source{.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true};
-
-ImpactSettings unity() {
-    ImpactSettings settings;
-    settings.normalisation = 1.0;
-    settings.handMassKg = 0.0;
-    return settings;
-}
 
 /// Columns: where x, y and z go.
 struct Rotation {
@@ -68,7 +58,7 @@ std::vector<CollisionEvent> randomWorld(unsigned seed, int style, const Rotation
         EXPECT_EQ(feed.set(id, {massKg, static_cast<double>(number(0.01F, 0.3F))}, values), "");
     }
     for (int step = 1; step <= 60; ++step) {
-        EXPECT_EQ(feed.beginStep(step * stepNs, 9.81), "");
+        EXPECT_EQ(feed.beginStep(step * stepNs, g), "");
         for (std::int32_t id = 0; id < bodies; ++id) {
             const Vector3 centre{number(-1.0F, 1.0F), number(-1.0F, 1.0F)},
                 velocity{number(-3.0F, 3.0F), number(-3.0F, 3.0F)}, spin{0.0F, 0.0F, number(-9.0F, 9.0F)};
@@ -144,11 +134,12 @@ TEST_P(TurnedWorlds, InAnyDirectionAreTheSameButForRounding) {
 INSTANTIATE_TEST_SUITE_P(Styles, TurnedWorlds, testing::Values(0, 1, 2));
 
 /// A floor, and a body of 2 kg.
-class ContactSpace : public testing::Test {
+class ContactSpace : public FedWorld {
 protected:
-    ContactSpace() {
-        EXPECT_EQ(feed.set(0, {}, {}), "");
-        EXPECT_EQ(feed.set(1, {massKg, 0.05}, source), "");
+    ContactSpace()
+        : FedWorld{0.0} {
+        set(0, {});
+        set(1, {massKg, 0.05}, source);
     }
     FedContact at(Vector3 point, Vector3 normal, std::int32_t id = 0) const {
         FedContact contact;
@@ -159,22 +150,11 @@ protected:
         contact.pointId = id;
         return contact;
     }
-    CollisionEvent only(const std::vector<FedContact>& contacts) {
-        EXPECT_EQ(feed.beginStep(feed.timeNs() + stepNs, 0.0), "");
-        for (const FedContact& contact : contacts) EXPECT_EQ(feed.touch(contact), "");
-        EXPECT_EQ(feed.endStep(), "");
-        std::vector<CollisionEvent> events;
-        feed.flush(events);
-        EXPECT_EQ(events.size(), 1U);
-        return events.empty() ? CollisionEvent{} : events.front();
-    }
-    /// The next contact is new again.
-    void part() {
-        EXPECT_EQ(feed.beginStep(feed.timeNs() + stepNs, 0.0), "");
-        EXPECT_EQ(feed.endStep(), "");
+    CollisionEvent onlyOf(const std::vector<FedContact>& contacts) {
+        step(contacts);
+        return only();
     }
     static constexpr double massKg = 2.0, restitution = 0.5;
-    ContactFeed feed{unity()};
 };
 
 // J = (1 + e) v / (1/m + n . ((I^-1 (r x n)) x r))
@@ -186,19 +166,19 @@ TEST_F(ContactSpace, AnObliqueImpactFollowsFromTheInertiaAboutEveryAxis) {
                       centre{0.5F, 0.5F, 0.25F};
         EXPECT_EQ(feed.moveInSpace(1, centre, {-3.0F * normal, {}}, turned.inverse(0.04, 0.09, 0.5)), "");
         const double perKg = 1.0 / massKg + 0.2 * 0.2 / 0.04 + 0.3 * 0.3 / 0.09;
-        const CollisionEvent event = only({at(centre + arm, normal)});
+        const CollisionEvent event = onlyOf({at(centre + arm, normal)});
         EXPECT_NEAR(event.source.impulseNewtonSeconds, 1.5 * 3.0 / perKg, 1.0e-5);
         EXPECT_NEAR(event.z, static_cast<double>(centre.z + arm.z), 1.0e-6);
-        part();
+        step(); // the next contact is new again
     }
 }
 
 TEST_F(ContactSpace, WithoutAMatrixABodyTurnsAboutEveryAxisAlike) {
     for (const Vector3 arm : {Vector3{0.2F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.2F}, {0.12F, 0.0F, 0.16F}}) {
         EXPECT_EQ(feed.moveInSpace(1, {}, {{0.0F, -3.0F, 0.0F}, {}}), "");
-        const CollisionEvent event = only({at(arm, {0.0F, 1.0F, 0.0F})});
+        const CollisionEvent event = onlyOf({at(arm, {0.0F, 1.0F, 0.0F})});
         EXPECT_NEAR(event.source.impulseNewtonSeconds, 4.5 / (1.0 / massKg + 0.04 / 0.05), 1.0e-5);
-        part();
+        step(); // the next contact is new again
     }
 }
 
@@ -212,7 +192,7 @@ TEST_F(ContactSpace, FourCornersAreOneLanding) {
         for (const float z : {-0.3F, 0.3F})
             corners.push_back(
                 at(centre + turned({x, -0.25F, z}), normal, static_cast<std::int32_t>(corners.size())));
-    const CollisionEvent event = only(corners);
+    const CollisionEvent event = onlyOf(corners);
     EXPECT_NEAR(event.source.impulseNewtonSeconds, massKg * 2.0 * 1.5, 1.0e-3);
     const Vector3 middle = centre + turned({0.0F, -0.25F, 0.0F});
     EXPECT_NEAR(event.x, static_cast<double>(middle.x), 1.0e-4);
@@ -223,9 +203,8 @@ TEST_F(ContactSpace, FourCornersAreOneLanding) {
 // A ball strikes two that touch, along a line in space; velocities before and after are all that is told.
 TEST_F(ContactSpace, ARowInSpaceHandsAnImpactOnByMomentum) {
     const Vector3 along = Rotation::by(0.3, 1.0)({1.0F, 0.0F, 0.0F});
-    for (const std::int32_t id : {2, 3})
-        EXPECT_EQ(feed.set(id, {massKg, 0.05}, id == 3 ? source : HapticFixture{}), "");
-    EXPECT_EQ(feed.set(1, {massKg, 0.05}, {}), "");
+    for (const std::int32_t id : {2, 3}) set(id, {massKg, 0.05}, id == 3 ? source : HapticFixture{});
+    set(1, {massKg, 0.05});
     const auto tell = [&](std::int32_t a, float speed, float after) {
         EXPECT_EQ(feed.moveInSpace(a, 0.2F * static_cast<float>(a) * along, {speed * along, {}}), "");
         EXPECT_EQ(feed.movedInSpace(a, {after * along, {}}), "");
@@ -233,22 +212,20 @@ TEST_F(ContactSpace, ARowInSpaceHandsAnImpactOnByMomentum) {
     const auto touching = [&](std::int32_t a) {
         FedContact contact = at(0.2F * (static_cast<float>(a) + 0.5F) * along, along);
         contact.a = a, contact.b = a + 1;
-        EXPECT_EQ(feed.touch(contact), "");
+        touch(contact);
     };
     for (int step = 0; step < 4; ++step) {
         const bool isStruck = step == 2;
-        EXPECT_EQ(feed.beginStep(feed.timeNs() + stepNs, 0.0), "");
+        begin();
         tell(1, isStruck ? 3.0F : 0.0F, 0.0F), tell(2, 0.0F, 0.0F), tell(3, 0.0F, isStruck ? 3.0F : 0.0F);
         if (isStruck) touching(1);
         touching(2);
-        EXPECT_EQ(feed.endStep(), "");
+        end();
     }
-    std::vector<CollisionEvent> events;
-    feed.flush(events);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_EQ(events[0].source.fixture, 3);
-    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, massKg * 3.0, 0.01);
-    EXPECT_NEAR(events[0].z, 0.5 * static_cast<double>(along.z), 1.0e-5);
+    const CollisionEvent hit = only();
+    EXPECT_EQ(hit.source.fixture, 3);
+    EXPECT_NEAR(hit.source.impulseNewtonSeconds, massKg * 3.0, 0.01);
+    EXPECT_NEAR(hit.z, 0.5 * static_cast<double>(along.z), 1.0e-5);
 }
 
 TEST_F(ContactSpace, FrictionIsPartOfTheImpulseInWhicheverOrderBodiesAreNamed) {
@@ -258,15 +235,15 @@ TEST_F(ContactSpace, FrictionIsPartOfTheImpulseInWhicheverOrderBodiesAreNamed) {
     std::swap(other.a, other.b);
     other.normal = -other.normal;
     other.frictionNewtonSeconds = {0.0F, -1.5F, 0.0F};
-    EXPECT_NEAR(only({contact, other}).source.impulseNewtonSeconds, 5.0, 1.0e-6); // of 4 and 3
+    EXPECT_NEAR(onlyOf({contact, other}).source.impulseNewtonSeconds, 5.0, 1.0e-6); // of 4 and 3
 }
 
 TEST_F(ContactSpace, AnEventHasThePartOfItsSource) {
     HapticFixture values = source;
     values.part = 7;
-    EXPECT_EQ(feed.set(1, {massKg, 0.05}, values), "");
+    set(1, {massKg, 0.05}, values);
     EXPECT_EQ(feed.moveInSpace(1, {}, {{0.0F, -3.0F, 0.0F}, {}}), "");
-    EXPECT_EQ(only({at({}, {0.0F, 1.0F, 0.0F})}).source.part, 7);
+    EXPECT_EQ(onlyOf({at({}, {0.0F, 1.0F, 0.0F})}).source.part, 7);
     values.part = -1;
     EXPECT_EQ(feed.set(1, {massKg, 0.05}, values), "part: expected a number from 0 on");
 }

@@ -12,20 +12,20 @@ namespace physvib {
 namespace {
 
 CollisionEvent event(std::int64_t timeNs, std::int32_t fixture = 0, double amplitude = 0.0) {
-    CollisionEvent e;
-    e.timeNs = timeNs;
-    e.source.fixture = fixture;
-    e.amplitude = amplitude;
-    return e;
+    return {.timeNs = timeNs, .amplitude = amplitude, .source = {.fixture = fixture}};
+}
+
+std::vector<CollisionEvent> released(EventSorter& sorter, std::int64_t beforeNs) {
+    std::vector<CollisionEvent> events;
+    sorter.release(beforeNs, events);
+    return events;
 }
 
 TEST(EventSorter, ReleasesInOrderOfTimeThenFixtureThenArrival) {
     EventSorter sorter(8);
     const std::vector<CollisionEvent> expected{event(1), event(5, 1), event(5, 2, 0.9), event(5, 2, 0.1)};
     for (const std::size_t i : {2U, 3U, 0U, 1U}) sorter.push(expected[i]);
-    std::vector<CollisionEvent> finished;
-    sorter.release(6, finished);
-    EXPECT_EQ(finished, expected);
+    EXPECT_EQ(released(sorter, 6), expected);
 }
 
 // Hundreds go by shares of the time, few by comparison: the same order.
@@ -61,30 +61,15 @@ TEST(EventSorter, ManyAreSortedAsFew) {
 
 TEST(EventSorter, KeepsEventsFromTheGivenTimeOn) {
     EventSorter sorter(8);
-    sorter.push(event(10));
-    sorter.push(event(9));
-    std::vector<CollisionEvent> finished;
-    sorter.release(10, finished);
-    EXPECT_EQ(finished, std::vector{event(9)});
-    sorter.release(11, finished);
-    EXPECT_EQ(finished, (std::vector{event(9), event(10)}));
-}
-
-TEST(EventSorter, FullSorterCountsWhatItDrops) {
-    EventSorter sorter(2);
-    for (int i = 0; i < 5; ++i) sorter.push(event(i));
-    std::vector<CollisionEvent> finished;
-    sorter.release(100, finished);
-    EXPECT_EQ(finished.size(), 2U);
-    EXPECT_EQ(sorter.drops(), 3U);
+    for (const std::int64_t ns : {10, 9}) sorter.push(event(ns));
+    EXPECT_EQ(released(sorter, 10), std::vector{event(9)});
+    EXPECT_EQ(released(sorter, 11), std::vector{event(10)});
 }
 
 TEST(EventSorter, AFullOneKeepsTheStrongest) {
     EventSorter sorter(2);
     for (const double amplitude : {0.1, -0.2, 0.15, 0.05}) sorter.push(event(0, 0, amplitude));
-    std::vector<CollisionEvent> finished;
-    sorter.release(100, finished);
-    EXPECT_EQ(finished, (std::vector{event(0, 0, -0.2), event(0, 0, 0.15)}));
+    EXPECT_EQ(released(sorter, 100), (std::vector{event(0, 0, -0.2), event(0, 0, 0.15)}));
     EXPECT_EQ(sorter.drops(), 2U);
 }
 
@@ -96,14 +81,10 @@ TEST(EventSorter, WithdrawsEventsOfAFixtureAndOnDemandThoseItGave) {
     sorter.push(given);
     sorter.push(event(3, 1));
     sorter.withdraw(5, false);
-    std::vector<CollisionEvent> finished;
-    sorter.release(3, finished);
-    EXPECT_EQ(finished, std::vector{given});
+    EXPECT_EQ(released(sorter, 3), std::vector{given});
     sorter.push(given);
     sorter.withdraw(5, true);
-    finished.clear();
-    sorter.release(10, finished);
-    EXPECT_EQ(finished, std::vector{event(3, 1)});
+    EXPECT_EQ(released(sorter, 10), std::vector{event(3, 1)});
 }
 
 // The map against std::map, with keys that collide.
@@ -153,8 +134,7 @@ TEST(NameSketch, SeldomAffirmsWhatIsNot) {
 
 TEST(NameSketch, OfCamerasFollowsTheTable) {
     FixtureTable table;
-    HapticFixture camera{}, other{};
-    camera.isCamera = true;
+    const HapticFixture camera{.isCamera = true}, other{};
     const std::int32_t slot = table.know(address(1), {});
     EXPECT_FALSE(table.mayBeCamera(address(1)));
     for (int i = 0; i < 2; ++i) table.set(slot, camera, {});

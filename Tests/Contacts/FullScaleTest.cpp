@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The impulse of full scale, told and learned, and the time in which a world settles: hits of known impulses.
-#include "Contacts/ContactFeed.h"
 #include "Contacts/EventMaker.h"
-#include "Contacts/ImpactSettings.h"
-#include <cmath>
-#include <gtest/gtest.h>
+#include "FedWorld.h"
 #include <limits>
-#include <vector>
 
 namespace physvib {
 namespace {
@@ -26,10 +22,7 @@ public:
     explicit Hits(const ImpactSettings& settings, double massKg = 1.0)
         : feed{settings} {
         EXPECT_EQ(feed.set(ground, {}, {}), "");
-        for (const std::int32_t id : {ball, other})
-            EXPECT_EQ(feed.set(id, {.massKg = massKg},
-                               {.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true}),
-                      "");
+        for (const std::int32_t id : {ball, other}) EXPECT_EQ(feed.set(id, {.massKg = massKg}, source), "");
     }
     /// Passes that time, then a step in which the balls land with these impulses; their amplitudes.
     std::vector<double> land(double afterSeconds, std::vector<double> newtonSeconds) {
@@ -50,7 +43,7 @@ public:
 
 private:
     void step(const std::vector<double>& newtonSeconds) {
-        EXPECT_EQ(feed.beginStep(feed.timeNs() + std::llround(stepSeconds * 1.0e9), 9.81), "");
+        EXPECT_EQ(feed.beginStep(feed.timeNs() + std::llround(stepSeconds * 1.0e9), g), "");
         for (std::size_t i = 0; i < newtonSeconds.size(); ++i) {
             FedContact contact{.a = ground, .b = ball + static_cast<std::int32_t>(i)};
             contact.impulseNewtonSeconds = newtonSeconds[i];
@@ -134,15 +127,15 @@ TEST(FullScale, WhatSettlesIsNeitherFeltNorLearned) {
 TEST(FullScale, GrainsDoNotRaiseTheLevelAndMutedSourcesDoNotCount) {
     FixtureTable table;
     const BodyFacts body{.body = 1, .massKg = 2.0, .isDynamic = true};
-    HapticFixture values{.frequencyHz = 200.0, .decayPerSecond = 30.0, .isCamera = true};
+    HapticFixture values = source;
     const std::int32_t heard = table.set(table.know(std::uint64_t{1}, body), values, {}, 0);
     values.gain = 0.0;
     const std::int32_t muted = table.set(table.know(std::uint64_t{2}, body), values, {}, 1);
     StepSpan step;
     step.endNs = 10'000'000;
     step.leastMetresPerSecond = 0.15;
-    const auto impact = [](std::int32_t source, double newtonSeconds, ContactKind kind) {
-        return Impact{source, FixtureTable::none, 0, newtonSeconds, {}, kind};
+    const auto impact = [](std::int32_t fixture, double newtonSeconds, ContactKind kind) {
+        return Impact{fixture, FixtureTable::none, 0, newtonSeconds, {}, kind};
     };
     FullScale level;
     level.learn(std::vector{impact(muted, 900.0, ContactKind::hit)}, step, table);
@@ -166,17 +159,11 @@ TEST(FullScale, RefusesWhatCannotBe) {
 
 // Eq. 5.4 and 5.7 with numbers worked out by hand.
 
-TEST(ImpactModel, AmplitudeIsImpulseOverMassesTimesNormalisation) {
-    const ImpactModel model{0.125, 30.0, 1.0};
-    EXPECT_DOUBLE_EQ(model.amplitude(80.0, 10.0), 0.25);
+TEST(ImpactModel, AmplitudeIsImpulseOverMassesTimesNormalisationAndDriveGain) {
+    EXPECT_DOUBLE_EQ((ImpactModel{0.125, 30.0, 1.0}.amplitude(80.0, 10.0)), 0.25);
+    EXPECT_DOUBLE_EQ((ImpactModel{0.125, 30.0, 4.0}.amplitude(80.0, 10.0)), 1.0);
+    EXPECT_DOUBLE_EQ(defaultNormalisation(4.0), 0.125); // the fastest crosses the field in a second
 }
-
-TEST(ImpactModel, DriveGainMultiplies) {
-    const ImpactModel model{0.125, 30.0, 4.0};
-    EXPECT_DOUBLE_EQ(model.amplitude(80.0, 10.0), 1.0);
-}
-
-TEST(ImpactModel, FastestBodyCrossesTheFieldInASecond) { EXPECT_DOUBLE_EQ(defaultNormalisation(4.0), 0.125); }
 
 } // namespace
 } // namespace physvib

@@ -145,25 +145,25 @@ protected:
     LastingStream() {
         HapticFixture ground{250.0, 20.0, true, 10.0};
         ground.texture = {0.002};
-        BodyFacts still, moving;
-        still.body = 1;
-        moving.body = 2;
-        moving.isDynamic = true;
-        moving.massKg = 1.0;
-        groundSlot = table.know(std::uint64_t{11}, still);
+        groundSlot = table.know(std::uint64_t{11}, {.body = 1});
         table.set(groundSlot, ground, {});
-        ballSlot = table.know(std::uint64_t{12}, moving);
+        ballSlot = table.know(std::uint64_t{12}, {.body = 2, .massKg = 1.0, .isDynamic = true});
     }
     /// A step of 10 ms with this load and speed, sliding.
     std::vector<Impact> step(double newtons, double metresPerSecond) {
         metres += metresPerSecond * 0.01;
-        LastingPoint point;
-        point.a = groundSlot;
-        point.b = ballSlot;
-        point.normalNewtonSeconds = newtons * 0.01;
-        point.slipMetresPerSecond = metresPerSecond;
-        point.onA = {metres, metresPerSecond};
-        if (newtons >= 0.0) lasting.touch(point);
+        if (newtons >= 0.0) touch(0, newtons, metresPerSecond, metres);
+        return endStep();
+    }
+    void touch(std::uint64_t feature, double newtons, double metresPerSecond, double at) {
+        lasting.touch({.a = groundSlot,
+                       .b = ballSlot,
+                       .feature = feature,
+                       .normalNewtonSeconds = newtons * 0.01,
+                       .slipMetresPerSecond = metresPerSecond,
+                       .onA = {at, metresPerSecond}});
+    }
+    std::vector<Impact> endStep() {
         span.startNs = span.endNs;
         span.endNs += 10'000'000;
         std::vector<Impact> impacts;
@@ -227,21 +227,9 @@ TEST_F(LastingStream, WhatJumpsIsNotFollowedAndWhatIsNoNumberNotTaken) {
 TEST_F(LastingStream, ManyTogetherStayBelowTheirBound) {
     std::vector<Impact> impacts;
     for (int n = 0; n < 5; ++n) {
-        for (std::uint64_t k = 0; k < 1000; ++k) {
-            LastingPoint point;
-            point.a = groundSlot;
-            point.b = ballSlot;
-            point.feature = k;
-            point.normalNewtonSeconds = 0.01;
-            point.slipMetresPerSecond = 3.0;
-            point.onA = {0.03 * n + 0.0137 * static_cast<double>(k), 3.0};
-            lasting.touch(point);
-        }
-        span.startNs = span.endNs;
-        span.endNs += 10'000'000;
-        impacts.clear();
-        lasting.collect(span, impacts);
-        lasting.endStep();
+        for (std::uint64_t k = 0; k < 1000; ++k)
+            touch(k, 1.0, 3.0, 0.03 * n + 0.0137 * static_cast<double>(k));
+        impacts = endStep();
     }
     EXPECT_LE(impacts.size(), 1000U); // of mostTogetherPerSecond, but for what lies at both ends
     EXPECT_GT(impacts.size(), 200U);

@@ -19,6 +19,10 @@ BoardEvent hit(std::uint32_t frame, double f, double tau, std::array<std::int16_
             static_cast<std::uint16_t>(durationMs), amplitudes};
 }
 
+void expectClosedForm(const std::vector<BoardFrame>& played, const std::vector<BoardEvent>& events) {
+    EXPECT_LE(test::worstDifference(played, test::boardClosedForm(events, played.size())), 1);
+}
+
 TEST(BoardRenderer, IsWithinOneStepOfTheClosedFormForRandomLists) {
     for (std::uint32_t seed = 1; seed <= 8; ++seed) {
         test::BoardListSettings list;
@@ -29,7 +33,8 @@ TEST(BoardRenderer, IsWithinOneStepOfTheClosedFormForRandomLists) {
         const auto events = test::randomBoardEvents(list, seed);
         const auto renderer = test::preparedBoard();
         const auto played = test::renderBoardEvents(*renderer, events, 32000);
-        EXPECT_LE(test::worstDifference(played, test::boardClosedForm(events, 32000)), 1) << "seed " << seed;
+        SCOPED_TRACE(seed);
+        expectClosedForm(played, events);
         EXPECT_EQ(renderer->status().played, events.size());
         EXPECT_EQ(renderer->status().late + renderer->status().dropped + renderer->status().stolen, 0u);
     }
@@ -42,7 +47,7 @@ TEST(BoardRenderer, CutsWhatHasADuration) {
     const auto events = test::randomBoardEvents(list, 3);
     const auto renderer = test::preparedBoard();
     const auto played = test::renderBoardEvents(*renderer, events, 20000);
-    EXPECT_LE(test::worstDifference(played, test::boardClosedForm(events, 20000)), 1);
+    expectClosedForm(played, events);
     EXPECT_EQ(played.back(), silence);
     EXPECT_EQ(renderer->status().modes, 0);
 }
@@ -50,10 +55,7 @@ TEST(BoardRenderer, CutsWhatHasADuration) {
 TEST(BoardRenderer, HoldsALowSlowNoteForSeconds) {
     const std::vector<BoardEvent> events{hit(5, 20, 0.0625, {4096, 2048, -4096, 1000}),
                                          hit(9, 399.5, 0.0625, {0, 1000, 0, 0})};
-    const auto renderer = test::preparedBoard();
-    EXPECT_LE(test::worstDifference(test::renderBoardEvents(*renderer, events, 80000),
-                                    test::boardClosedForm(events, 80000)),
-              1);
+    expectClosedForm(test::renderBoardEvents(*test::preparedBoard(), events, 80000), events);
 }
 
 TEST(BoardRenderer, StrikesOfOneMaterialCostOneModeAndEndTogether) {
@@ -64,7 +66,7 @@ TEST(BoardRenderer, StrikesOfOneMaterialCostOneModeAndEndTogether) {
     BoardRenderer::Codes block;
     const auto played = test::renderBoardEvents(*renderer, events, 15000);
     EXPECT_EQ(renderer->status().modes, 1);
-    EXPECT_LE(test::worstDifference(played, test::boardClosedForm(events, 15000)), 1);
+    expectClosedForm(played, events);
     for (int k = 0; k < 4000; ++k) renderer->render(block);
     EXPECT_EQ(renderer->status().modes, 0);
 }

@@ -2,7 +2,6 @@
 // HapticRenderer against the closed form, for every law, width and rate, and at every block size.
 #include "Core/HapticRenderer.h"
 #include "Core/Actuators/VibrationConverter.h"
-#include "Core/EventQueue.h"
 #include "Support/ClosedForm.h"
 #include "Support/Rendering.h"
 #include "Support/Sets.h"
@@ -59,20 +58,13 @@ TEST(HapticRenderer, PlaysAfterMonthsAsAtTheBeginning) {
     constexpr int rate = 48000, frames = 24000;
     const auto layout = layoutOf(4);
     const auto signalFrom = [&](std::int64_t second) {
-        EventQueue<CollisionEvent, 256> queue;
-        for (CollisionEvent e : randomEvents(100, 0.4, 5)) {
-            e.timeNs += second * 1'000'000'000;
-            queue.push(e);
-        }
+        auto events = randomEvents(100, 0.4, 5);
+        for (auto& e : events) e.timeNs += second * 1'000'000'000;
+        test::ListSource source{events};
         const auto renderer = std::make_unique<HapticRenderer>();
         renderer->prepare(settingsFor(layout, PanningLaw::linear, rate));
         renderer->moveTo(rate, second * rate);
-        std::vector<std::vector<float>> signal(4, std::vector<float>(frames));
-        for (int done = 0; done < frames; done += 500) {
-            std::array<float*, 4> at{};
-            for (std::size_t j = 0; j < 4; ++j) at[j] = signal[j].data() + done;
-            renderer->render(queue, at.data(), 500);
-        }
+        const auto signal = test::renderBlocks(*renderer, source, 4, frames, {500});
         EXPECT_EQ(renderer->status().played, 100u);
         return signal;
     };
@@ -137,7 +129,7 @@ TEST(HapticRenderer, EachChannelIsItsEqualisersWorkAndAnyBlockSizeGivesTheSameBi
     EXPECT_TRUE(renderEvents(events, equalisedSettings(false), frames).channels == expected);
     for (const bool limiter : {false, true}) {
         const auto reference = renderEvents(events, equalisedSettings(limiter), frames, {8192});
-        for (const auto& blocks : std::vector<std::vector<int>>{{1}, {17}, {64}, {3, 8192, 1, 500, 63}})
+        for (const auto& blocks : {std::vector{1}, {17}, {64}, {3, 8192, 1, 500, 63}})
             EXPECT_TRUE(renderEvents(events, equalisedSettings(limiter), frames, blocks).channels ==
                         reference.channels)
                 << blocks[0];
@@ -145,11 +137,8 @@ TEST(HapticRenderer, EachChannelIsItsEqualisersWorkAndAnyBlockSizeGivesTheSameBi
 }
 
 TEST(HapticRenderer, AnEqualiserRingsOutAndThenComesToRest) {
-    CollisionEvent e;
-    e.frequencyHz = 205;
-    e.decayPerSecond = 1000;
-    e.amplitude = 0.5;
-    e.x = e.y = 1.0; // channel 1
+    const CollisionEvent e{
+        .frequencyHz = 205, .decayPerSecond = 1000, .amplitude = 0.5, .x = 1.0, .y = 1.0}; // channel 1
     const auto rendered = renderEvents({e}, equalisedSettings(true), 10 * 48000);
     EXPECT_NE(rendered.channels[1][4000], 0.0f); // the mode is over at 800
     EXPECT_EQ(rendered.channels[1].back(), 0.0f);
@@ -157,11 +146,7 @@ TEST(HapticRenderer, AnEqualiserRingsOutAndThenComesToRest) {
 }
 
 TEST(HapticRenderer, MoreEventsAtOneMomentThanThePendingStoreHoldsAreAllPlayed) {
-    CollisionEvent e;
-    e.timeNs = 1'000'003;
-    e.frequencyHz = 205;
-    e.decayPerSecond = 30;
-    e.amplitude = 1e-4;
+    const CollisionEvent e{.timeNs = 1'000'003, .frequencyHz = 205, .decayPerSecond = 30, .amplitude = 1e-4};
     const std::vector<CollisionEvent> events(3 * limits::maxPending, e);
     const auto rendered = renderEvents(events, settingsFor(layoutOf(1), PanningLaw::linear, 48000), 4800);
     EXPECT_EQ(rendered.status.played, events.size());
@@ -209,18 +194,13 @@ TEST(HapticRenderer, NormalisesEachBlockOfEachChannelAndFeedsAConverter) {
 TEST(HapticRenderer, ALateEventIsPlayedWholeAtOnceAndCounted) {
     auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settingsFor(layoutOf(1), PanningLaw::linear, 48000));
-    EventQueue<CollisionEvent, 16> queue;
-    std::vector<float> block(4800);
-    float* at = block.data();
-    renderer->render(queue, &at, 4800);
-    CollisionEvent e;
-    e.timeNs = 10'000'000;
-    e.frequencyHz = 205;
-    e.decayPerSecond = 0;
-    e.amplitude = 1;
-    e.durationNs = 50'000'000;
-    queue.push(e);
-    renderer->render(queue, &at, 4800);
+    test::Session none{}, late{{{.timeNs = 10'000'000,
+                                 .frequencyHz = 205,
+                                 .decayPerSecond = 0,
+                                 .amplitude = 1,
+                                 .durationNs = 50'000'000}}};
+    test::renderBlocks(*renderer, none, 1, 4800, {4800});
+    const auto block = test::renderBlocks(*renderer, late, 1, 4800, {4800})[0];
     EXPECT_EQ(renderer->status().late, 1u);
     const auto latency = static_cast<std::size_t>(renderer->latencyFrames());
     EXPECT_NEAR(block[latency + 1], std::sin(2 * std::numbers::pi * 205 / 48000), 1e-6);
@@ -228,60 +208,31 @@ TEST(HapticRenderer, ALateEventIsPlayedWholeAtOnceAndCounted) {
     EXPECT_EQ(block[latency + 2400], 0.0f);
 }
 
-// Events and controls, each in time order, as a session gives them.
-struct Session {
-    std::vector<CollisionEvent> events;
-    std::vector<RenderControl> controls;
-    bool pop(CollisionEvent& e) noexcept { return take(events, e); }
-    bool pop(RenderControl& c) noexcept { return take(controls, c); }
+using test::Session;
+using Kind = RenderControl::Kind;
 
-private:
-    template <class T>
-    static bool take(std::vector<T>& from, T& to) noexcept {
-        if (from.empty()) return false;
-        to = from.front();
-        from.erase(from.begin());
-        return true;
-    }
-};
-
-test::Channels renderSession(Session session, const RendererSettings& settings, int frames, int block,
+test::Channels renderSession(Session session, const RendererSettings& settings, int block,
                              RenderStatus& status) {
     auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settings);
-    test::Channels all(static_cast<std::size_t>(settings.channels),
-                       std::vector<float>(static_cast<std::size_t>(frames)));
-    for (int done = 0; done < frames; done += block) {
-        std::vector<float*> at;
-        for (auto& channel : all) at.push_back(channel.data() + done);
-        renderer->render(session, at.data(), std::min(block, frames - done));
-    }
+    const auto all = test::renderBlocks(*renderer, session, settings.channels, 48000, {block});
     status = renderer->status();
     return all;
 }
 
-RenderControl controlAt(std::int64_t timeNs, RenderControl::Kind kind, int channel = 0, float value = 0) {
-    RenderControl c;
-    c.timeNs = timeNs;
-    c.kind = kind;
-    c.channel = channel;
-    c.value = value;
-    return c;
-}
-
 TEST(HapticRenderer, ControlsActAtTheirTimeWhateverTheBlockSize) {
-    using Kind = RenderControl::Kind;
-    Session session{randomEvents(500, 0.9, 8), {}};
-    session.controls = {controlAt(100'000'001, Kind::gain, 1, -0.5f),
-                        controlAt(200'000'003, Kind::mute, 2, 1), controlAt(300'000'007, Kind::panner),
-                        controlAt(500'000'000, Kind::stopAll), controlAt(600'000'000, Kind::mute, 2, 0)};
     const PhantomPanner two{gridLayout(2, 1), PanningLaw::energy, 1, 1, 1};
-    session.controls[2].panner = &two;
+    const Session session{randomEvents(500, 0.9, 8),
+                          {{100'000'001, Kind::gain, 1, -0.5f},
+                           {200'000'003, Kind::mute, 2, 1},
+                           {.timeNs = 300'000'007, .kind = Kind::panner, .panner = &two},
+                           {500'000'000, Kind::stopAll},
+                           {600'000'000, Kind::mute, 2, 0}}};
     const auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000, true);
     RenderStatus status;
-    const auto reference = renderSession(session, settings, 48000, 8192, status);
+    const auto reference = renderSession(session, settings, 8192, status);
     for (const int block : {1, 64, 441})
-        EXPECT_TRUE(renderSession(session, settings, 48000, block, status) == reference) << block;
+        EXPECT_TRUE(renderSession(session, settings, block, status) == reference) << block;
 }
 
 TEST(HapticRenderer, ADelaySetLaterBeginsWithWhatHasPassed) {
@@ -289,14 +240,14 @@ TEST(HapticRenderer, ADelaySetLaterBeginsWithWhatHasPassed) {
     for (auto& e : session.events) e.durationNs = 0; // modes that ring, and nothing else
     for (auto& e : session.events) e.decayPerSecond = 1;
     const Session plain = session;
-    session.controls = {controlAt(500'000'000, RenderControl::Kind::delay, 1, 0.02f)};
+    session.controls = {{500'000'000, Kind::delay, 1, 0.02f}};
     for (const auto set : test::runnableSets()) {
         auto settings = settingsFor(layoutOf(2), PanningLaw::linear, 48000, false);
         settings.instructions = set;
         for (const int block : {1, 64, 441}) {
             RenderStatus status;
-            const auto out = renderSession(session, settings, 48000, block, status),
-                       undelayed = renderSession(plain, settings, 48000, block, status);
+            const auto out = renderSession(session, settings, block, status),
+                       undelayed = renderSession(plain, settings, block, status);
             EXPECT_EQ(out[0], undelayed[0]);
             const std::size_t delay = 960, faded = 24000 + 480 + 48; // the ramp, and the limiter's look-ahead
             EXPECT_NE(undelayed[1][faded - delay], 0.0f);
@@ -307,72 +258,63 @@ TEST(HapticRenderer, ADelaySetLaterBeginsWithWhatHasPassed) {
 }
 
 TEST(HapticRenderer, ALevelMultipliesTheGainsOfAllChannels) {
-    using Kind = RenderControl::Kind;
     Session levelled{randomEvents(200, 0.9, 8), {}}, gained = levelled;
-    levelled.controls = {controlAt(0, Kind::gain, 1, -0.5f), controlAt(0, Kind::mute, 2, 1),
-                         controlAt(0, Kind::level, 0, 0.25f)};
-    gained.controls = {controlAt(0, Kind::gain, 0, 0.25f), controlAt(0, Kind::gain, 1, -0.125f),
-                       controlAt(0, Kind::mute, 2, 1), controlAt(0, Kind::gain, 3, 0.25f)};
+    levelled.controls = {{0, Kind::gain, 1, -0.5f}, {0, Kind::mute, 2, 1}, {0, Kind::level, 0, 0.25f}};
+    gained.controls = {{0, Kind::gain, 0, 0.25f},
+                       {0, Kind::gain, 1, -0.125f},
+                       {0, Kind::mute, 2, 1},
+                       {0, Kind::gain, 3, 0.25f}};
     const auto settings = settingsFor(layoutOf(4), PanningLaw::linear, 48000, true);
     RenderStatus status;
-    EXPECT_TRUE(renderSession(levelled, settings, 48000, 256, status) ==
-                renderSession(gained, settings, 48000, 256, status));
+    EXPECT_TRUE(renderSession(levelled, settings, 256, status) ==
+                renderSession(gained, settings, 256, status));
 }
 
 TEST(HapticRenderer, AMutedChannelIsSilentAndHasNoSayInTheLimiter) {
-    Session session{randomEvents(300, 0.9, 9), {}}, quiet = session;
+    Session session{randomEvents(300, 0.9, 9)};
     for (auto& e : session.events) e.amplitude *= 20; // on channel 1 only, from 0.1 s on muted
     for (auto& e : session.events) e.x = 1;
-    session.controls = {controlAt(0, RenderControl::Kind::mute, 1, 1)};
+    session.controls = {{0, Kind::mute, 1, 1}};
     const auto settings = settingsFor(gridLayout(2, 1), PanningLaw::linear, 48000, true);
     RenderStatus status;
-    const auto out = renderSession(session, settings, 48000, 256, status);
+    const auto out = renderSession(session, settings, 256, status);
     for (std::size_t n = 4800; n < 48000; ++n) ASSERT_EQ(out[1][n], 0.0f);
     EXPECT_EQ(status.limiterGain, 1.0f);
 }
 
 TEST(HapticRenderer, ALayoutChangeMovesLaterStrikesOnly) {
-    CollisionEvent e;
-    e.frequencyHz = 200;
-    e.decayPerSecond = 2;
-    e.amplitude = 0.3;
-    Session session{{e}, {controlAt(100'000'000, RenderControl::Kind::panner)}};
     const PhantomPanner one{gridLayout(1, 1), PanningLaw::linear, 1, 1, 1};
-    session.controls[0].panner = &one;
-    auto unchanged = session;
-    unchanged.controls.clear();
+    const Session unchanged{{{.frequencyHz = 200, .decayPerSecond = 2, .amplitude = 0.3}}};
+    Session session = unchanged;
+    session.controls = {{.timeNs = 100'000'000, .kind = Kind::panner, .panner = &one}};
     const auto settings = settingsFor(gridLayout(2, 1), PanningLaw::linear, 48000);
     RenderStatus status;
-    EXPECT_TRUE(renderSession(session, settings, 48000, 256, status) ==
-                renderSession(unchanged, settings, 48000, 256, status));
-    CollisionEvent later = e;
-    later.timeNs = 200'000'000;
-    later.x = 1;
-    later.frequencyHz = 100;
-    session.events.push_back(later);
-    EXPECT_TRUE(renderSession(session, settings, 48000, 256, status)[1] ==
-                renderSession(unchanged, settings, 48000, 256, status)[1])
+    EXPECT_TRUE(renderSession(session, settings, 256, status) ==
+                renderSession(unchanged, settings, 256, status));
+    session.events.push_back(
+        {.timeNs = 200'000'000, .frequencyHz = 100, .decayPerSecond = 2, .amplitude = 0.3, .x = 1});
+    EXPECT_TRUE(renderSession(session, settings, 256, status)[1] ==
+                renderSession(unchanged, settings, 256, status)[1])
         << "the one enchanter left is channel 0";
 }
 
 TEST(HapticRenderer, StopAllFadesWhatRingsAndLaterEventsArePlayed) {
-    CollisionEvent e;
-    e.frequencyHz = 200;
-    e.decayPerSecond = 1;
-    e.amplitude = 0.5;
-    CollisionEvent later = e;
-    later.timeNs = 700'000'000;
-    const Session session{{e, later}, {controlAt(300'000'000, RenderControl::Kind::stopAll)}};
+    const CollisionEvent e{.frequencyHz = 200, .decayPerSecond = 1, .amplitude = 0.5};
+    Session session{{e, e}, {{300'000'000, Kind::stopAll}}};
+    session.events[1].timeNs = 700'000'000;
     RenderStatus status;
     const auto out =
-        renderSession(session, settingsFor(layoutOf(1), PanningLaw::linear, 48000), 48000, 256, status)[0];
-    float jump = 0, between = 0, after = 0;
-    for (std::size_t n = 14'000; n < 15'500; ++n) jump = std::max(jump, std::abs(out[n] - out[n - 1]));
-    for (std::size_t n = 15'360; n < 33'600; ++n) between = std::max(between, std::abs(out[n]));
-    for (std::size_t n = 33'600; n < 48'000; ++n) after = std::max(after, std::abs(out[n]));
-    EXPECT_LT(jump, 0.5 * 2 * std::numbers::pi * 200 / 48000 + 0.02);
-    EXPECT_LT(between, 1e-6f);
-    EXPECT_GT(after, 0.4f);
+        renderSession(session, settingsFor(layoutOf(1), PanningLaw::linear, 48000), 256, status)[0];
+    const auto most = [&](std::size_t from, std::size_t to, auto of) {
+        float found = 0;
+        for (std::size_t n = from; n < to; ++n) found = std::max(found, std::abs(of(n)));
+        return found;
+    };
+    const auto sample = [&](std::size_t n) { return out[n]; };
+    EXPECT_LT(most(14'000, 15'500, [&](std::size_t n) { return out[n] - out[n - 1]; }),
+              0.5 * 2 * std::numbers::pi * 200 / 48000 + 0.02);
+    EXPECT_LT(most(15'360, 33'600, sample), 1e-6f);
+    EXPECT_GT(most(33'600, 48'000, sample), 0.4f);
     EXPECT_EQ(status.liveModes, 1);
 }
 
@@ -381,9 +323,7 @@ TEST(HapticRenderer, TellsWhatItPlayedAndWhen) {
     auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settingsFor(layoutOf(1), PanningLaw::linear, 48000));
     test::ListSource source{events};
-    std::vector<float> block(4800);
-    float* at = block.data();
-    renderer->render(source, &at, 4800);
+    test::renderBlocks(*renderer, source, 1, 4800, {4800});
     PlayedEvent played;
     for (const auto& e : events) {
         ASSERT_TRUE(renderer->played().pop(played));
@@ -395,16 +335,14 @@ TEST(HapticRenderer, TellsWhatItPlayedAndWhen) {
 }
 
 TEST(HapticRenderer, WhatCannotBePlayedIsCountedAndSilent) {
-    CollisionEvent e;
-    e.frequencyHz = 205;
-    e.amplitude = 1; // no decay, no duration
-    CollisionEvent high = e;
+    const CollisionEvent endless{.frequencyHz = 205, .amplitude = 1};
+    CollisionEvent high = endless;
     high.frequencyHz = 2500;
     high.decayPerSecond = 10;
     CollisionEvent nan = high;
     nan.amplitude = std::numeric_limits<double>::quiet_NaN();
     const auto rendered =
-        renderEvents({e, high, nan}, settingsFor(layoutOf(1), PanningLaw::linear, 5000), 500);
+        renderEvents({endless, high, nan}, settingsFor(layoutOf(1), PanningLaw::linear, 5000), 500);
     EXPECT_EQ(rendered.status.rejected, 3u);
     for (const float y : rendered.channels[0]) ASSERT_EQ(y, 0.0f);
 }

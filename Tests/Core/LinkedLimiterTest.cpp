@@ -75,12 +75,10 @@ Block toneAcrossACeiling(int changeFrame, float before, float after, int size,
         for (std::size_t n = 0; n < channel.size(); ++n)
             channel[n] =
                 static_cast<float>(std::sin(2.0 * std::numbers::pi * 205.0 * static_cast<double>(n) / rate));
-    Block first(channels), rest(channels);
-    for (std::size_t j = 0; j < channels; ++j) {
-        first[j].assign(in[j].begin(), in[j].begin() + changeFrame);
-        rest[j].assign(in[j].begin() + changeFrame, in[j].end());
-    }
-    Block out = limited(first, size);
+    Block rest(channels);
+    for (std::size_t j = 0; j < channels; ++j) rest[j].assign(in[j].begin() + changeFrame, in[j].end());
+    for (auto& channel : in) channel.resize(static_cast<std::size_t>(changeFrame));
+    Block out = limited(in, size);
     limited.limiter->setCeiling(2, after);
     rest = limited(rest, size);
     for (std::size_t j = 0; j < channels; ++j) out[j].insert(out[j].end(), rest[j].begin(), rest[j].end());
@@ -224,6 +222,20 @@ TEST(LinkedLimiter, IsTheSameToTheBitOnEachInstructionSetAndAtEachBlockSize) {
 
 // GainRamp: straight lines between gains, exact at both ends.
 
+/// Ones behind a ramp of a tenth per frame, or as fast as `hurry` frames ask, in two blocks.
+std::vector<float> ramped(float from, float to, int frames, int first, int hurry = 1000) {
+    GainRamp ramp;
+    ramp.prepare(1000, 0.01, from);
+    ramp.moveTo(to, hurry);
+    std::vector<float> x(static_cast<std::size_t>(frames), 1.0f);
+    float* at = x.data();
+    ramp.apply(&at, 1, first);
+    at += first;
+    ramp.apply(&at, 1, frames - first);
+    EXPECT_TRUE(ramp.isResting());
+    return x;
+}
+
 TEST(GainRamp, AtOneItChangesNoBit) {
     GainRamp ramp;
     ramp.prepare(1000, 0.01, 1.0f);
@@ -233,43 +245,15 @@ TEST(GainRamp, AtOneItChangesNoBit) {
     EXPECT_EQ(x, before);
 }
 
-TEST(GainRamp, MovesInAStraightLineAcrossBlocksAndThenRests) {
-    GainRamp ramp;
-    ramp.prepare(1000, 0.01, 0.0f); // a tenth per frame
-    ramp.moveTo(1.0f);
-    std::vector<float> x(20, 1.0f);
-    float* at = x.data();
-    ramp.apply(&at, 1, 7);
-    at += 7;
-    ramp.apply(&at, 1, 13);
+TEST(GainRamp, MovesInAStraightLineAcrossBlocksAndIsThereExactly) {
+    const auto up = ramped(0.0f, 1.0f, 20, 7), down = ramped(1.0f, 0.0f, 30, 30);
     for (std::size_t n = 0; n < 20; ++n)
-        EXPECT_NEAR(x[n], std::min(1.0f, 0.1f * static_cast<float>(n + 1)), 1e-6);
-    EXPECT_TRUE(ramp.isResting());
-    EXPECT_EQ(x.back(), 1.0f);
-}
-
-TEST(GainRamp, InAHurryItIsThereInTheFramesGivenAndExactly) {
-    for (int frames = 1; frames <= 9; ++frames) {
-        GainRamp ramp;
-        ramp.prepare(1000, 0.01, 1.0f);
-        ramp.moveTo(0.0f, frames);
-        std::vector<float> x(9, 1.0f);
-        float* at = x.data();
-        ramp.apply(&at, 1, frames);
-        EXPECT_EQ(x[static_cast<std::size_t>(frames) - 1], 0.0f) << frames;
-        EXPECT_TRUE(ramp.isResting());
-    }
-}
-
-TEST(GainRamp, SilenceIsExact) {
-    GainRamp ramp;
-    ramp.prepare(1000, 0.01, 1.0f);
-    ramp.moveTo(0.0f);
-    std::vector<float> x(30, 1.0f);
-    float* at = x.data();
-    ramp.apply(&at, 1, 30);
-    EXPECT_EQ(x[9], 0.0f);
-    EXPECT_EQ(x[29], 0.0f);
+        EXPECT_NEAR(up[n], std::min(1.0f, 0.1f * static_cast<float>(n + 1)), 1e-6);
+    EXPECT_EQ(up.back(), 1.0f);
+    EXPECT_EQ(down[9], 0.0f);
+    EXPECT_EQ(down[29], 0.0f);
+    for (int frames = 1; frames <= 9; ++frames)
+        EXPECT_EQ(ramped(1.0f, 0.0f, frames, frames, frames).back(), 0.0f) << frames << ", in a hurry";
 }
 
 TEST(GainRamp, MovesOnThroughSilence) {

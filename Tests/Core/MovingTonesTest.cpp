@@ -30,16 +30,14 @@ EnchanterPlace placeOf(char letter) {
 }
 
 CollisionEvent segment(EnchanterPlace from, EnchanterPlace to, std::int64_t fromNs, std::int64_t lengthNs) {
-    CollisionEvent e;
-    e.timeNs = fromNs;
-    e.durationNs = lengthNs;
-    e.frequencyHz = hz;
-    e.amplitude = 0.5;
-    e.x = from.xMetres;
-    e.y = from.yMetres;
-    e.course = {to.xMetres, to.yMetres, lengthNs, 0};
-    e.spread = Spread::equal;
-    return e;
+    return {.timeNs = fromNs,
+            .frequencyHz = hz,
+            .amplitude = 0.5,
+            .x = from.xMetres,
+            .y = from.yMetres,
+            .durationNs = lengthNs,
+            .course = {to.xMetres, to.yMetres, lengthNs, 0},
+            .spread = Spread::equal};
 }
 
 const CollisionEvent fromAToD = segment(placeOf('A'), placeOf('D'), 0, 1'000'000'000);
@@ -178,24 +176,10 @@ TEST(MovingTones, TheRestOfALongerToneGoesOnWhereThatOneIs) {
 }
 
 TEST(MovingTones, AStopFadesThem) {
-    struct Source {
-        std::vector<CollisionEvent> events{fromAToD};
-        test::ListSource list{events};
-        bool isStopped = false;
-        bool pop(CollisionEvent& event) noexcept { return list.pop(event); }
-        bool pop(RenderControl& control) noexcept {
-            control = {.timeNs = 500'000'000, .kind = RenderControl::Kind::stopAll};
-            return !std::exchange(isStopped, true);
-        }
-    } source;
+    test::Session session{{fromAToD}, {{.timeNs = 500'000'000, .kind = RenderControl::Kind::stopAll}}};
     auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(phone4());
-    std::vector<std::vector<float>> out(4, std::vector<float>(rate));
-    for (int done = 0; done < rate; done += 480) {
-        std::array<float*, 4> at{};
-        for (std::size_t j = 0; j < 4; ++j) at[j] = out[j].data() + done;
-        renderer->render(source, at.data(), 480);
-    }
+    const auto out = test::renderBlocks(*renderer, session, 4, rate, {480});
     const auto loudest = [&](int from, int to) {
         return std::abs(*std::max_element(out[0].begin() + from, out[0].begin() + to));
     };

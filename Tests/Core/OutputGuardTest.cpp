@@ -69,16 +69,18 @@ std::vector<std::pair<std::string, Signal>> hazards() {
     return all;
 }
 
+void expectWithin(const test::SlowFigures& figures, const std::string& name) {
+    EXPECT_LE(figures.mean, most) << name;
+    EXPECT_LE(figures.rms, most) << name;
+}
+
 TEST(OutputGuard, KeepsMeanAndWhatIsSlowWithinItsShareAtEveryRate) {
     for (const int rate : {5000, 8000, 44100, 48000, 192000})
         for (const auto& [name, signal] : hazards()) {
             if (rate == 192000 && name.starts_with("square")) continue;
-            for (const auto place : {GuardPlace::rendered, GuardPlace::last}) {
-                const auto left =
-                    test::slowFigures(guarded(samplesOf(signal, rate, 12.0), rate, place), rate);
-                EXPECT_LE(left.mean, most) << name << " at " << rate;
-                EXPECT_LE(left.rms, most) << name << " at " << rate;
-            }
+            for (const auto place : {GuardPlace::rendered, GuardPlace::last})
+                expectWithin(test::slowFigures(guarded(samplesOf(signal, rate, 12.0), rate, place), rate),
+                             name + " at " + std::to_string(rate));
         }
 }
 
@@ -112,8 +114,7 @@ TEST(OutputGuard, RandomSignalsDoNotPassIt) {
     for (int i = 0; i < 400; ++i)
         worst.join(test::slowFigures(
             guarded(samplesOf(randomSignal(random), 8000, 5.0), 8000, GuardPlace::last), 8000));
-    EXPECT_LE(worst.mean, most);
-    EXPECT_LE(worst.rms, most);
+    expectWithin(worst, "the worst");
     EXPECT_GT(worst.mean, 0.8 * most) << "it would turn down more than it must";
 }
 
@@ -133,9 +134,8 @@ TEST(OutputGuard, AnAdversaryThatSeesTheGainDoesNotPassIt) {
                 float* const at = &x;
                 guard->process(&at, 1);
             }
-            const auto figures = test::slowFigures(left, rate);
-            EXPECT_LE(figures.mean, most) << shut << ' ' << holdSeconds;
-            EXPECT_LE(figures.rms, most) << shut << ' ' << holdSeconds;
+            expectWithin(test::slowFigures(left, rate),
+                         std::to_string(shut) + ' ' + std::to_string(holdSeconds));
         }
 }
 
@@ -228,14 +228,13 @@ TEST(OutputGuard, OpensAgainAndCountsHowOftenItActed) {
     }
 }
 
-CollisionEvent eventAt(double seconds, double hz, double decay, double amplitude) {
-    CollisionEvent e;
-    e.timeNs = std::llround(seconds * 1e9);
-    e.frequencyHz = hz;
-    e.decayPerSecond = decay;
-    e.amplitude = amplitude;
-    e.x = e.y = 0.5;
-    return e;
+CollisionEvent slowAt(double seconds) {
+    return {.timeNs = std::llround(seconds * 1e9),
+            .frequencyHz = 1.0,
+            .decayPerSecond = 1.0,
+            .amplitude = 1.0,
+            .x = 0.5,
+            .y = 0.5};
 }
 
 RendererSettings settingsFor(int channels) {
@@ -247,23 +246,19 @@ RendererSettings settingsFor(int channels) {
 TEST(OutputGuard, StrikesThatAreSlowTogetherDoNotAddUp) {
     constexpr int rate = 48000, frames = 11 * rate;
     std::vector<CollisionEvent> events;
-    for (int i = 0; i < 44; ++i) events.push_back(eventAt(0.25 * i, 1.0, 1.0, 1.0));
+    for (int i = 0; i < 44; ++i) events.push_back(slowAt(0.25 * i));
     const auto out = test::renderEvents(events, settingsFor(2), frames);
-    for (const auto& channel : out.channels) {
-        const auto figures = test::slowFigures(channel, rate);
-        EXPECT_LE(figures.mean, most);
-        EXPECT_LE(figures.rms, most);
-    }
+    for (const auto& channel : out.channels) expectWithin(test::slowFigures(channel, rate), "a channel");
     EXPECT_GT(out.status.guarded, 0U);
     EXPECT_EQ(test::renderEvents(events, settingsFor(2), frames, {1, 700, 64, 3}).channels, out.channels)
         << "blocks do not matter";
 }
 
 TEST(OutputGuard, ARenderWithoutTheLimiterIsRaw) {
-    std::vector<CollisionEvent> events{eventAt(0.0, 1.0, 1.0, 1.0)};
     auto settings = settingsFor(1);
     settings.limiterEnabled = false;
-    EXPECT_GT(test::slowFigures(test::renderEvents(events, settings, 48000).channels[0], 48000).mean, 0.3);
+    EXPECT_GT(test::slowFigures(test::renderEvents({slowAt(0.0)}, settings, 48000).channels[0], 48000).mean,
+              0.3);
 }
 
 // W_h against the standard's formula and table at every rate, and A(8) against its closed form.

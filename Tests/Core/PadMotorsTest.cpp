@@ -19,20 +19,20 @@ PhantomPanner grips() {
 
 CollisionEvent hit(double seconds, double frequencyHz, double amplitude, double x = 0.5,
                    double decayPerSecond = 30.0) {
-    CollisionEvent event;
-    event.timeNs = static_cast<std::int64_t>(seconds * 1e9);
-    event.frequencyHz = frequencyHz;
-    event.decayPerSecond = decayPerSecond;
-    event.amplitude = amplitude;
-    event.x = x;
-    event.y = 0.5;
-    return event;
+    return {static_cast<std::int64_t>(seconds * 1e9), frequencyHz, decayPerSecond, amplitude, x, 0.5, 0, {}};
 }
 
 /// Half a tone of full scale for `seconds`, which does not decay.
 CollisionEvent pulse(double at, double seconds, double amplitude, double frequencyHz) {
     CollisionEvent event = hit(at, frequencyHz, amplitude, 0.5, 0.0);
     event.durationNs = static_cast<std::int64_t>(seconds * 1e9);
+    return event;
+}
+
+/// From 100 ms to there.
+CollisionEvent ringing(double amplitude, std::int64_t endMs, double decayPerSecond = 0.0) {
+    CollisionEvent event = hit(0.1, 60.0, amplitude, 0.5, decayPerSecond);
+    event.durationNs = (endMs - 100) * ms;
     return event;
 }
 
@@ -106,12 +106,9 @@ TEST(PadMotors, CommandsAreZeroOrAtLeastTheThresholdNeverCloserThanThePaceAndEnd
             const auto commands = commandsOf(law, rain(seed, 100, 3.0));
             ASSERT_FALSE(commands.empty());
             for (std::size_t i = 0; i < commands.size(); ++i) {
-                EXPECT_TRUE(commands[i].low == 0.0 ||
-                            (commands[i].low >= law.low.threshold && commands[i].low <= 1.0))
-                    << commands[i].low;
-                EXPECT_TRUE(commands[i].high == 0.0 ||
-                            (commands[i].high >= law.high.threshold && commands[i].high <= 1.0))
-                    << commands[i].high;
+                for (const auto& [command, least] :
+                     {std::pair{commands[i].low, law.low.threshold}, {commands[i].high, law.high.threshold}})
+                    EXPECT_TRUE(command == 0.0 || (command >= least && command <= 1.0)) << command;
                 const std::int64_t sinceNs = i > 0 ? commands[i].timeNs - commands[i - 1].timeNs : INT64_MAX;
                 EXPECT_GE(static_cast<double>(sinceNs), 1e9 / perSecond - 1.0);
             }
@@ -214,6 +211,59 @@ TEST(PadMotors, AStopIsZeroAtTheNextCommandAndLaterHitsArePlayed) {
 
 TEST(PadMotors, AtLevelZeroNothingIsFelt) {
     for (const PadCommand& command : commandsOf({}, rain(3, 50, 1.0), 0.0)) EXPECT_TRUE(command.isSame({}));
+}
+
+double strongestUntil(PadMotors& motors, std::int64_t ns) {
+    double strongest = 0.0;
+    while (motors.dueNs() <= ns) {
+        const PadCommand command = motors.next(1.0);
+        strongest = std::max({strongest, command.low, command.high});
+    }
+    return strongest;
+}
+
+/// A stop is at the moment at which it is felt; so is an event, although its command leaves earlier.
+TEST(StopsOfMotors, EndWhatIsBeforeThemAndNothingLater) {
+    for (const double lead : {0.0, 0.03, 0.1})
+        for (const int offsetMs : {-150, -100, -99, -31, -30, -29, -1, 0, 1, 29, 30, 100}) {
+            PadLaw law;
+            law.leadSeconds = lead;
+            PadMotors motors{law};
+            const std::int64_t stopNs = 500 * ms;
+            motors.strike(hit(1e-3 * (500 + offsetMs), 60.0, 1.0), grips());
+            motors.stop(stopNs);
+            EXPECT_EQ(strongestUntil(motors, 2000 * ms) > 0.0, offsetMs >= 0)
+                << offsetMs << " ms after the stop, lead " << lead;
+            EXPECT_EQ(motors.dueNs(), PadMotors::never);
+        }
+}
+
+TEST(StopsOfMotors, EndWhatRingsWithTheNextCommand) {
+    for (const double decay : {0.0, 1.0, 30.0})
+        for (const std::int64_t afterMs : {1, 10, 79, 81, 150}) {
+            PadMotors motors{PadLaw{}};
+            motors.strike(ringing(1.0, 5100, decay), grips());
+            EXPECT_GT(strongestUntil(motors, (100 + afterMs) * ms), 0.0);
+            motors.stop((100 + afterMs) * ms);
+            EXPECT_EQ(strongestUntil(motors, 6000 * ms), 0.0) << afterMs << " ms, decay " << decay;
+        }
+}
+
+/// A store of 64 that do not merge; who is left is heard by how long it goes on.
+TEST(FullMotors, LoseTheWeakestWhicheverThatIs) {
+    for (const double amplitude : {0.1, 0.3, 0.9}) { // of one more: weaker, stronger than the weakest
+        PadMotors motors{PadLaw{}};
+        const auto strike = [&](double a, std::int64_t endMs) { motors.strike(ringing(a, endMs), grips()); };
+        for (int i = 0; i < 63; ++i) strike(0.5, 200);
+        strike(0.2, 1000);
+        strike(amplitude, 2000);
+        EXPECT_GT(strongestUntil(motors, 150 * ms), 0.0);
+        EXPECT_EQ(motors.lost(), 1U);
+        strongestUntil(motors, 500 * ms);
+        EXPECT_GT(strongestUntil(motors, 900 * ms), 0.0) << amplitude;
+        strongestUntil(motors, 1300 * ms);
+        EXPECT_EQ(strongestUntil(motors, 1900 * ms) > 0.0, amplitude > 0.2) << amplitude;
+    }
 }
 
 } // namespace

@@ -26,9 +26,9 @@ PhantomPanner::Gains gainsOf(const EnchanterLayout& layout, PanningLaw law, doub
     return gains;
 }
 
-EnchanterLayout preset(const char* name) {
+EnchanterLayout preset(std::string_view name) {
     EnchanterLayout layout;
-    EXPECT_TRUE(layoutPreset(name, layout));
+    EXPECT_TRUE(layoutPreset(name, layout)) << name;
     return layout;
 }
 
@@ -42,25 +42,45 @@ TEST(PhantomPanner, OneEnchanterPlaysEverythingFully) {
     for (const auto& one : panningLaws) EXPECT_EQ(gainsOf(preset("phone1"), one.law, 0.3, 3.0)[0], 1.0);
 }
 
-TEST(PhantomPanner, FourFollowEquation42InOrderUpperLeftUpperRightLowerLeftLowerRight) {
-    const auto g = gainsOf(preset("phone4"), PanningLaw::linear, 1.6, 2.7);
-    EXPECT_NEAR(g[0], 0.75 * 0.75, 1e-12);
-    EXPECT_NEAR(g[1], 0.25 * 0.75, 1e-12);
-    EXPECT_NEAR(g[2], 0.75 * 0.25, 1e-12);
-    EXPECT_NEAR(g[3], 0.25 * 0.25, 1e-12);
-}
-
-TEST(PhantomPanner, ExponentIsGammaOfEquation42) {
-    EXPECT_NEAR(gainsOf(preset("ring4"), PanningLaw::linear, 1.6, 2.7, 2.0)[1], 0.0625 * 0.5625, 1e-12);
-}
-
-TEST(PhantomPanner, LogarithmicLawsFollowTheTwoReconstructionsOfEquation43) {
-    const auto inner = gainsOf(preset("phone4"), PanningLaw::log, 1.6, 2.7);
-    EXPECT_NEAR(inner[0], std::pow(1 - std::log2(1.25), 2), 1e-12);
-    EXPECT_NEAR(inner[3], std::pow(1 - std::log2(1.75), 2), 1e-12);
-    const auto outer = gainsOf(preset("phone4"), PanningLaw::logOuter, 1.6, 2.7);
-    EXPECT_NEAR(outer[0], std::pow(std::log2(1.75), 2), 1e-12);
-    EXPECT_NEAR(outer[3], std::pow(std::log2(1.25), 2), 1e-12);
+// Equations 4.2, with its gamma, and 4.3 in its two reconstructions; two follow the line only.
+TEST(PhantomPanner, GainsAreThoseOfTheEquationsUpperLeftFirst) {
+    struct Case {
+        EnchanterLayout layout;
+        PanningLaw law;
+        double x, y, exponent;
+        std::vector<std::pair<std::size_t, double>> gains;
+    };
+    EnchanterLayout diagonal{1, 1, 2, {}};
+    diagonal.places[1] = {1, 1};
+    std::vector<Case> cases{{preset("phone4"),
+                             PanningLaw::linear,
+                             1.6,
+                             2.7,
+                             1.0,
+                             {{0, 0.75 * 0.75}, {1, 0.25 * 0.75}, {2, 0.75 * 0.25}, {3, 0.25 * 0.25}}},
+                            {preset("ring4"), PanningLaw::linear, 1.6, 2.7, 2.0, {{1, 0.0625 * 0.5625}}},
+                            {preset("phone4"),
+                             PanningLaw::log,
+                             1.6,
+                             2.7,
+                             1.0,
+                             {{0, std::pow(1 - std::log2(1.25), 2)}, {3, std::pow(1 - std::log2(1.75), 2)}}},
+                            {preset("phone4"),
+                             PanningLaw::logOuter,
+                             1.6,
+                             2.7,
+                             1.0,
+                             {{0, std::pow(std::log2(1.75), 2)}, {3, std::pow(std::log2(1.25), 2)}}},
+                            {diagonal, PanningLaw::linear, W / 4, H / 4, 1.0, {{0, 0.75}}},
+                            {test::gridLayout(8, 1), PanningLaw::linear, W / 7.0 * 3, 0.0, 1.0, {}}};
+    for (std::size_t j = 0; j < 8; ++j)
+        cases.back().gains.emplace_back(j, 1 - std::abs(static_cast<double>(j) - 3) / 7.0);
+    for (const double y : {0.0, 1.0, H})
+        cases.push_back({preset("phone2"), PanningLaw::linear, 1.6, y, 1.0, {{0, 0.75}, {1, 0.25}}});
+    for (const Case& c : cases)
+        for (const auto& [j, gain] : c.gains)
+            EXPECT_NEAR(gainsOf(c.layout, c.law, c.x, c.y, c.exponent)[j], gain, 1e-12)
+                << nameOf(c.law) << " of " << c.layout.count << ", actuator " << j;
 }
 
 TEST(PhantomPanner, CentreOfFourIs6dBDownLinearAnd9Point3Logarithmic) {
@@ -68,23 +88,7 @@ TEST(PhantomPanner, CentreOfFourIs6dBDownLinearAnd9Point3Logarithmic) {
                 -6.02, 0.01);
     EXPECT_NEAR(10 * std::log10(sumOfSquares(gainsOf(preset("phone4"), PanningLaw::log, W / 2, H / 2))),
                 -9.26, 0.01);
-}
-
-TEST(PhantomPanner, TwoFollowTheLineOnly) {
-    for (const double y : {0.0, 1.0, H}) {
-        const auto g = gainsOf(preset("phone2"), PanningLaw::linear, 1.6, y);
-        EXPECT_NEAR(g[0], 0.75, 1e-12);
-        EXPECT_NEAR(g[1], 0.25, 1e-12);
-    }
-}
-
-TEST(PhantomPanner, AnyLineUsesTheExtentAlongIt) {
-    const auto level = gainsOf(test::gridLayout(8, 1), PanningLaw::linear, W / 7.0 * 3, 0);
-    for (int j = 0; j < 8; ++j)
-        EXPECT_NEAR(level[static_cast<std::size_t>(j)], 1 - std::abs(j - 3) / 7.0, 1e-12);
-    EnchanterLayout diagonal{1, 1, 2, {}};
-    diagonal.places[1] = {1, 1};
-    EXPECT_NEAR(gainsOf(diagonal, PanningLaw::linear, W / 4, H / 4)[0], 0.75, 1e-12);
+    EXPECT_NEAR(sumOfSquares(gainsOf(preset("ring4"), PanningLaw::energy, W / 2, H / 2)), 1.0, 1e-9);
 }
 
 TEST(PhantomPanner, TriangleIsBarycentricAndProjectsWhatLiesOutside) {
@@ -101,12 +105,12 @@ TEST(PhantomPanner, TriangleIsBarycentricAndProjectsWhatLiesOutside) {
 TEST(PhantomPanner, OtherArrangementsWeighByInverseSquareDistance) {
     const auto layout = test::gridLayout(3, 3);
     const auto g = gainsOf(layout, PanningLaw::linear, 0.2 * W, 0.1 * H);
+    const auto weight = [](int j) {
+        return 1 / (std::pow(0.2 - (j % 3) / 2.0, 2) + std::pow(0.1 - (j / 3) / 2.0, 2));
+    };
     double sum = 0;
-    for (int j = 0; j < 9; ++j)
-        sum += 1 / (std::pow(0.2 - (j % 3) / 2.0, 2) + std::pow(0.1 - (j / 3) / 2.0, 2));
-    for (int j = 0; j < 9; ++j)
-        EXPECT_NEAR(g[static_cast<std::size_t>(j)],
-                    1 / (std::pow(0.2 - (j % 3) / 2.0, 2) + std::pow(0.1 - (j / 3) / 2.0, 2)) / sum, 1e-12);
+    for (int j = 0; j < 9; ++j) sum += weight(j);
+    for (int j = 0; j < 9; ++j) EXPECT_NEAR(g[static_cast<std::size_t>(j)], weight(j) / sum, 1e-12);
     EXPECT_NEAR(gainsOf(layout, PanningLaw::log, 0.5 * W, 0.5 * H)[4], 1, 1e-9);
 }
 
@@ -194,12 +198,6 @@ TEST(PhantomPanner, ThePageHasTheTableOfLaws) {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
-EnchanterLayout preset(std::string_view name) {
-    EnchanterLayout layout;
-    EXPECT_TRUE(layoutPreset(name, layout)) << name;
-    return layout;
-}
-
 void expectPlaces(std::string_view name, const std::vector<std::pair<double, double>>& expected) {
     const EnchanterLayout layout = preset(name);
     ASSERT_EQ(layout.count, static_cast<int>(expected.size())) << name;
@@ -217,32 +215,23 @@ TEST(EnchanterLayout, EveryPresetIsValidAndHasTheCountInItsName) {
     }
 }
 
-TEST(EnchanterLayout, ExtentsArePhoneAndHands) {
+// Corners upper left first; a cabinet has its front below and first; a pad for a Pico is read in lines.
+TEST(EnchanterLayout, PresetsStandWhereThePageSays) {
+    expectPlaces("phone1", {{0.06, 0.03}});
+    expectPlaces("phone2", {{0.0, 0.03}, {0.12, 0.03}});
+    expectPlaces("ring3", {{0.0, 0.08}, {0.16, 0.08}, {0.08, 0.0}});
+    expectPlaces("phone4", {{0.0, 0.06}, {0.12, 0.06}, {0.0, 0.0}, {0.12, 0.0}});
+    expectPlaces("ring4", {{0.0, 0.08}, {0.16, 0.08}, {0.0, 0.0}, {0.16, 0.0}});
+    expectPlaces("cabinet4", {{0.0, 0.0}, {0.56, 0.0}, {0.0, 1.1}, {0.56, 1.1}});
+    expectPlaces("pico4", {{0.0, 0.08}, {0.24, 0.08}, {0.0, 0.0}, {0.24, 0.0}});
+    std::vector<std::pair<double, double>> lines;
+    for (const double y : {0.08, 0.0})
+        for (const double x : {0.0, 0.08, 0.16, 0.24}) lines.emplace_back(x, y);
+    expectPlaces("pico8", lines);
     EXPECT_EQ(preset("phone1").extentWidthMetres, 0.12);
     EXPECT_EQ(preset("phone4").extentHeightMetres, 0.06);
     EXPECT_EQ(preset("ring1").extentWidthMetres, 0.16);
     EXPECT_EQ(preset("ring4").extentHeightMetres, 0.08);
-}
-
-TEST(EnchanterLayout, FourSitOnTheCornersUpperLeftFirst) {
-    expectPlaces("phone4", {{0.0, 0.06}, {0.12, 0.06}, {0.0, 0.0}, {0.12, 0.0}});
-    expectPlaces("ring4", {{0.0, 0.08}, {0.16, 0.08}, {0.0, 0.0}, {0.16, 0.0}});
-}
-
-TEST(EnchanterLayout, ACabinetHasItsFrontBelowAndFirst) {
-    expectPlaces("cabinet4", {{0.0, 0.0}, {0.56, 0.0}, {0.0, 1.1}, {0.56, 1.1}});
-}
-
-TEST(EnchanterLayout, APadForAPicoIsReadInLines) {
-    expectPlaces("pico4", {{0.0, 0.08}, {0.24, 0.08}, {0.0, 0.0}, {0.24, 0.0}});
-    expectPlaces("pico8", {{0.0, 0.08},
-                           {0.08, 0.08},
-                           {0.16, 0.08},
-                           {0.24, 0.08},
-                           {0.0, 0.0},
-                           {0.08, 0.0},
-                           {0.16, 0.0},
-                           {0.24, 0.0}});
 }
 
 TEST(EnchanterLayout, PresetsOnABodyAreInSpaceAndNameItsParts) {
@@ -262,12 +251,6 @@ TEST(EnchanterLayout, PresetsOnABodyAreInSpaceAndNameItsParts) {
     EXPECT_TRUE(isFlat(preset("cabinet4")));
 }
 
-TEST(EnchanterLayout, OneTwoAndThreeAreCentreSidesAndTriangle) {
-    expectPlaces("phone1", {{0.06, 0.03}});
-    expectPlaces("phone2", {{0.0, 0.03}, {0.12, 0.03}});
-    expectPlaces("ring3", {{0.0, 0.08}, {0.16, 0.08}, {0.08, 0.0}});
-}
-
 TEST(EnchanterLayout, UnknownPresetLeavesTheLayoutUntouched) {
     for (const std::string_view name : {"", "phone", "phone0", "phone65", "PHONE4", "phone4 ", "ring44"}) {
         EnchanterLayout layout = preset("ring2");
@@ -277,34 +260,21 @@ TEST(EnchanterLayout, UnknownPresetLeavesTheLayoutUntouched) {
     }
 }
 
-TEST(EnchanterLayout, CountOutsideOneTo64IsInvalid) {
-    EnchanterLayout layout = preset("phone4");
-    for (const int count : {-1, 0, 65}) {
-        layout.count = count;
-        EXPECT_FALSE(isValid(layout)) << count;
-    }
-    layout.count = 64;
-    EXPECT_TRUE(isValid(layout));
-}
-
-TEST(EnchanterLayout, ExtentMustBePositiveAndFinite) {
+TEST(EnchanterLayout, CountExtentsAndTheFirstCountPlacesMustBeValid) {
+    const auto with = [](auto change) {
+        EnchanterLayout layout = preset("phone3");
+        change(layout);
+        return isValid(layout);
+    };
+    for (const int count : {-1, 0, 65}) EXPECT_FALSE(with([=](auto& l) { l.count = count; })) << count;
+    EXPECT_TRUE(with([](auto& l) { l.count = 64; }));
     for (const double bad : {0.0, -0.1, infinity, notANumber}) {
-        EnchanterLayout wide = preset("phone4"), high = preset("phone4");
-        wide.extentWidthMetres = bad;
-        high.extentHeightMetres = bad;
-        EXPECT_FALSE(isValid(wide)) << bad;
-        EXPECT_FALSE(isValid(high)) << bad;
+        EXPECT_FALSE(with([=](auto& l) { l.extentWidthMetres = bad; })) << bad;
+        EXPECT_FALSE(with([=](auto& l) { l.extentHeightMetres = bad; })) << bad;
     }
-}
-
-TEST(EnchanterLayout, OnlyTheFirstCountPlacesMustBeFinite) {
-    EnchanterLayout layout = preset("phone3");
-    layout.places[3] = {notANumber, infinity};
-    EXPECT_TRUE(isValid(layout));
-    layout.places[2].yMetres = notANumber;
-    EXPECT_FALSE(isValid(layout));
-    layout.places[2] = {-infinity, 0.0};
-    EXPECT_FALSE(isValid(layout));
+    EXPECT_TRUE(with([](auto& l) { l.places[3] = {notANumber, infinity}; }));
+    EXPECT_FALSE(with([](auto& l) { l.places[2].yMetres = notANumber; }));
+    EXPECT_FALSE(with([](auto& l) { l.places[2] = {-infinity, 0.0}; }));
 }
 
 } // namespace

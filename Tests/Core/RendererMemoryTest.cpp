@@ -25,15 +25,8 @@ RendererSettings settingsFor(int channels, int modes) {
 /// `count` frequencies, struck one after the other, the last ones softest.
 std::vector<CollisionEvent> tones(int count) {
     std::vector<CollisionEvent> events;
-    for (int i = 0; i < count; ++i) {
-        CollisionEvent e;
-        e.timeNs = 1'000'000 * i;
-        e.frequencyHz = 100.0 + i;
-        e.decayPerSecond = 1.0;
-        e.amplitude = 0.01 / (1 + i);
-        e.x = e.y = 0.5;
-        events.push_back(e);
-    }
+    for (int i = 0; i < count; ++i)
+        events.push_back({1'000'000 * i, 100.0 + i, 1.0, 0.01 / (1 + i), 0.5, 0.5, 0, {}});
     return events;
 }
 
@@ -102,20 +95,12 @@ TEST(RendererMemory, WithoutItAllIsSilentUntilThereIsSome) {
 
 // What a HapticRenderer cannot take: it says so, and renders silence.
 
-CollisionEvent hit() {
-    CollisionEvent event;
-    event.frequencyHz = 205.0;
-    event.decayPerSecond = 30.0;
-    event.amplitude = 0.5;
-    return event;
-}
-
 /// One block of a hit, on as many outputs as there are at most, which held something before.
 test::Channels blockOf(HapticRenderer& renderer) {
     test::Channels channels(static_cast<std::size_t>(limits::maxEnchanters), std::vector<float>(256, 7.0f));
     std::vector<float*> at;
     for (auto& channel : channels) at.push_back(channel.data());
-    const std::vector<CollisionEvent> events{hit()};
+    const std::vector<CollisionEvent> events{{0, 205.0, 30.0, 0.5, 0.0, 0.0, 0, {}}};
     test::ListSource source{events};
     renderer.render(source, at.data(), 256);
     return channels;
@@ -146,20 +131,13 @@ void expectRefused(const RendererSettings& settings, const char* why) {
     EXPECT_FALSE(isSilent(blockOf(*renderer), 2)) << why;
 }
 
-TEST(RendererRefusal, MoreOutputsThanEnchantersAtMost) { expectRefused(settingsOf(65), "65 outputs"); }
-
-TEST(RendererRefusal, NoOutputsOrFewerThanEnchanters) {
+TEST(RendererRefusal, OutputsRatesAndCeilingsOutsideTheLimits) {
+    expectRefused(settingsOf(65), "65 outputs");
     expectRefused(RendererSettings{}, "no outputs");
     expectRefused(settingsOf(-1), "minus one output");
     expectRefused(settingsOf(1), "two enchanters on one output");
-}
-
-TEST(RendererRefusal, RatesOutsideTheLimits) {
     for (const int rate : {0, -48000, limits::minSampleRateHz - 1, limits::maxSampleRateHz + 1})
         expectRefused(settingsOf(2, rate), std::to_string(rate).c_str());
-}
-
-TEST(RendererRefusal, CeilingsThatAreNone) {
     for (const float ceiling :
          {0.0f, -1.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
         auto settings = settingsOf(2);

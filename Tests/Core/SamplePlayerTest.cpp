@@ -16,38 +16,21 @@ const std::vector<float> wood = [] {
 const RecordedContact contacts[] = {{349.0, wood}};
 
 CollisionEvent hit(std::int64_t timeNs, double amplitude, double x, double y) {
-    CollisionEvent e;
-    e.timeNs = timeNs;
-    e.frequencyHz = 349.0;
-    e.decayPerSecond = 107.0;
-    e.amplitude = amplitude;
-    e.x = x;
-    e.y = y;
-    return e;
+    return {timeNs, 349.0, 107.0, amplitude, x, y, 0, {}};
 }
 
-RendererSettings square(int rate = 48000) {
-    return {rate, 4,
+RendererSettings square() {
+    return {48000, 4,
             PhantomPanner{{1, 1, 4, {{{0, 1}, {1, 1}, {0, 0}, {1, 0}}}}, PanningLaw::linear, 1, 1, 1}, false};
 }
 
-struct Played {
-    test::Channels channels;
-    RenderStatus status;
-};
-
-Played play(const std::vector<CollisionEvent>& events, int frames, int block) {
+test::Rendered play(const std::vector<CollisionEvent>& events, int frames, int block) {
     auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(square());
     renderer->setContacts({contacts});
     const int latency = renderer->latencyFrames();
-    test::Channels all(4, std::vector<float>(static_cast<std::size_t>(frames + latency)));
     test::ListSource source{events};
-    for (int done = 0; done < frames + latency; done += block) {
-        std::vector<float*> at;
-        for (auto& channel : all) at.push_back(channel.data() + done);
-        renderer->render(source, at.data(), std::min(block, frames + latency - done));
-    }
+    auto all = test::renderBlocks(*renderer, source, 4, frames + latency, {block});
     for (auto& channel : all) channel.erase(channel.begin(), channel.begin() + latency);
     return {all, renderer->status()};
 }
@@ -102,17 +85,10 @@ TEST(SamplePlayer, AClipThatIsNotThereIsNotASlowToneInstead) { // as in a list o
     clip.sound = soundOfClip(mostClips - 1);
     clip.decayPerSecond = 0.0;
     clip.durationNs = 10'000'000'000;
-    const auto renderer = std::make_unique<HapticRenderer>();
-    renderer->prepare(square());
-    const std::vector<CollisionEvent> list{clip};
-    test::ListSource source{list};
-    std::vector<std::vector<float>> all(4, std::vector<float>(8 * 48000));
-    std::vector<float*> at;
-    for (auto& channel : all) at.push_back(channel.data());
-    renderer->render(source, at.data(), 8 * 48000);
+    const auto [all, status] = test::renderEvents({clip}, square(), 8 * 48000);
     for (const auto& channel : all)
         for (const float x : channel) ASSERT_EQ(x, 0.0f);
-    EXPECT_EQ(renderer->status().rejected, 1u);
+    EXPECT_EQ(status.rejected, 1u);
 }
 
 TEST(SamplePlayer, ASoundHasItsOwnRecordingWhateverItsFrequency) {
@@ -157,25 +133,11 @@ TEST(SamplePlayer, RecordingsThatAreExchangedFadeWithoutAStep) {
     auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(square());
     renderer->setContacts({constant});
-    RenderControl exchange;
-    exchange.timeNs = 10'000'000;
-    exchange.kind = RenderControl::Kind::recordings;
-    exchange.recordings = {contacts};
-    struct Source : test::ListSource {
-        std::vector<RenderControl> controls;
-        using ListSource::pop;
-        bool pop(RenderControl& control) {
-            if (controls.empty()) return false;
-            control = controls.back();
-            controls.pop_back();
-            return true;
-        }
-    } source{{{hit(0, 1.0, 0, 1)}}, {exchange}};
+    test::Session session{
+        {hit(0, 1.0, 0, 1)},
+        {{.timeNs = 10'000'000, .kind = RenderControl::Kind::recordings, .recordings = {contacts}}}};
     const int latency = renderer->latencyFrames();
-    test::Channels all(4, std::vector<float>(2000));
-    std::vector<float*> at;
-    for (auto& channel : all) at.push_back(channel.data());
-    renderer->render(source, at.data(), 2000);
+    const auto all = test::renderBlocks(*renderer, session, 4, 2000, {2000});
     const auto& out = all[0];
     EXPECT_EQ(out[static_cast<std::size_t>(latency + 479)], 1.0f);
     EXPECT_EQ(out[static_cast<std::size_t>(latency + 960)], 0.0f);

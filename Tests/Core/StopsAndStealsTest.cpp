@@ -2,7 +2,6 @@
 // What a stop ends and what it leaves, who goes where a store is full, and controls that change nothing
 // because they are outside their range: on both sides of each moment, level and limit.
 #include "Core/Modes/ModeBank.h"
-#include "Core/Pads/PadMotors.h"
 #include "Support/Rendering.h"
 #include <algorithm>
 #include <cmath>
@@ -18,75 +17,7 @@ constexpr int rate = 8000;
 
 CollisionEvent tone(std::int64_t timeNs, double amplitude, std::int64_t durationNs = 0,
                     double decayPerSecond = 30.0, double frequencyHz = 60.0) {
-    CollisionEvent event;
-    event.timeNs = timeNs;
-    event.frequencyHz = frequencyHz;
-    event.decayPerSecond = decayPerSecond;
-    event.amplitude = amplitude;
-    event.durationNs = durationNs;
-    event.x = event.y = 0.5;
-    return event;
-}
-
-PhantomPanner grips() {
-    EnchanterLayout phone;
-    layoutPreset("phone4", phone);
-    return PadMotors::gripsOf({phone, PanningLaw::linear, 1.0, 1.0, 1.0});
-}
-
-double strongestUntil(PadMotors& motors, std::int64_t ns) {
-    double strongest = 0.0;
-    while (motors.dueNs() <= ns) {
-        const PadCommand command = motors.next(1.0);
-        strongest = std::max({strongest, command.low, command.high});
-    }
-    return strongest;
-}
-
-/// A stop is at the moment at which it is felt; so is an event, although its command leaves earlier.
-TEST(StopsOfMotors, EndWhatIsBeforeThemAndNothingLater) {
-    for (const double lead : {0.0, 0.03, 0.1})
-        for (const int offsetMs : {-150, -100, -99, -31, -30, -29, -1, 0, 1, 29, 30, 100}) {
-            PadLaw law;
-            law.leadSeconds = lead;
-            PadMotors motors{law};
-            const std::int64_t stopNs = 500 * ms;
-            motors.strike(tone(stopNs + offsetMs * ms, 1.0), grips());
-            motors.stop(stopNs);
-            EXPECT_EQ(strongestUntil(motors, 2000 * ms) > 0.0, offsetMs >= 0)
-                << offsetMs << " ms after the stop, lead " << lead;
-            EXPECT_EQ(motors.dueNs(), PadMotors::never);
-        }
-}
-
-TEST(StopsOfMotors, EndWhatRingsWithTheNextCommand) {
-    for (const double decay : {0.0, 1.0, 30.0})
-        for (const std::int64_t afterMs : {1, 10, 79, 81, 150}) {
-            PadMotors motors{PadLaw{}};
-            motors.strike(tone(100 * ms, 1.0, 5000 * ms, decay), grips());
-            EXPECT_GT(strongestUntil(motors, (100 + afterMs) * ms), 0.0);
-            motors.stop((100 + afterMs) * ms);
-            EXPECT_EQ(strongestUntil(motors, 6000 * ms), 0.0) << afterMs << " ms, decay " << decay;
-        }
-}
-
-/// A store of 64 that do not merge; who is left is heard by how long it goes on.
-TEST(FullMotors, LoseTheWeakestWhicheverThatIs) {
-    for (const double amplitude : {0.1, 0.3, 0.9}) { // of one more: weaker, stronger than the weakest
-        PadMotors motors{PadLaw{}};
-        const auto strike = [&](double a, std::int64_t endMs) {
-            motors.strike(tone(100 * ms, a, (endMs - 100) * ms, 0.0), grips());
-        };
-        for (int i = 0; i < 63; ++i) strike(0.5, 200);
-        strike(0.2, 1000);
-        strike(amplitude, 2000);
-        EXPECT_GT(strongestUntil(motors, 150 * ms), 0.0);
-        EXPECT_EQ(motors.lost(), 1U);
-        strongestUntil(motors, 500 * ms);
-        EXPECT_GT(strongestUntil(motors, 900 * ms), 0.0) << amplitude;
-        strongestUntil(motors, 1300 * ms);
-        EXPECT_EQ(strongestUntil(motors, 1900 * ms) > 0.0, amplitude > 0.2) << amplitude;
-    }
+    return {timeNs, frequencyHz, decayPerSecond, amplitude, 0.5, 0.5, durationNs, {}};
 }
 
 /// Who is quietest is a question of now: what was struck hard may have decayed below what was struck softly.
@@ -116,18 +47,6 @@ TEST(FullBank, StealsTheModeThatIsQuietestNow) {
         }
 }
 
-struct ListsSource {
-    test::ListSource events;
-    std::vector<RenderControl> controls;
-    bool pop(CollisionEvent& event) noexcept { return events.pop(event); }
-    bool pop(RenderControl& control) noexcept {
-        if (controls.empty()) return false;
-        control = controls.front();
-        controls.erase(controls.begin());
-        return true;
-    }
-};
-
 /// Of four actuators, which those controls change.
 test::Channels rendered(const std::vector<CollisionEvent>& events, const std::vector<RenderControl>& controls,
                         int frames) {
@@ -136,14 +55,8 @@ test::Channels rendered(const std::vector<CollisionEvent>& events, const std::ve
                                     .panner = {test::gridLayout(2, 2), PanningLaw::linear, 1.0, 1.0, 1.0}};
     auto renderer = std::make_unique<HapticRenderer>();
     EXPECT_TRUE(renderer->prepare(settings));
-    ListsSource source{{events}, controls};
-    test::Channels all(4, std::vector<float>(static_cast<std::size_t>(frames)));
-    for (int done = 0; done < frames; done += 80) {
-        std::vector<float*> at;
-        for (auto& channel : all) at.push_back(channel.data() + done);
-        renderer->render(source, at.data(), 80);
-    }
-    return all;
+    test::Session session{events, controls};
+    return test::renderBlocks(*renderer, session, 4, frames, {80});
 }
 
 test::Channels renderedWith(const std::vector<RenderControl>& controls) {
@@ -158,12 +71,7 @@ double peak(const test::Channels& channels, int from, int to) {
 }
 
 RenderControl control(RenderControl::Kind kind, int channel, float value) {
-    RenderControl one;
-    one.timeNs = 10 * ms;
-    one.kind = kind;
-    one.channel = channel;
-    one.value = value;
-    return one;
+    return {10 * ms, kind, channel, value};
 }
 
 TEST(ControlsOutOfRange, ChangeNothingAndTheirNeighboursDo) {

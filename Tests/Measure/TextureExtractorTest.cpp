@@ -22,12 +22,9 @@ std::vector<float> scrape(const Texture& texture, double metresPerSecond, double
                           double decayPerSecond, double length = 2.0) {
     HapticFixture ground{frequencyHz, decayPerSecond, true, massKg};
     ground.texture = texture;
-    BodyFacts still, moving;
-    still.body = 1;
-    moving.body = 2;
     FixtureTable table;
-    const std::int32_t surface = table.know(std::uint64_t{11}, still),
-                       slider = table.know(std::uint64_t{12}, moving);
+    const std::int32_t surface = table.know(std::uint64_t{11}, {.body = 1}),
+                       slider = table.know(std::uint64_t{12}, {.body = 2});
     table.set(surface, ground, {});
     LastingContacts lasting{table};
     std::vector<CollisionEvent> events;
@@ -35,24 +32,19 @@ std::vector<float> scrape(const Texture& texture, double metresPerSecond, double
     constexpr double step = 0.01;
     constexpr std::int64_t stepNs = 10'000'000;
     for (std::int64_t n = 0; n < static_cast<std::int64_t>(length / step); ++n) {
-        LastingPoint point;
-        point.a = surface;
-        point.b = slider;
-        point.normalNewtonSeconds = newtons * step;
-        point.slipMetresPerSecond = metresPerSecond;
-        point.onA = {metresPerSecond * step * static_cast<double>(n + 1), metresPerSecond};
-        lasting.touch(point);
+        lasting.touch({.a = surface,
+                       .b = slider,
+                       .normalNewtonSeconds = newtons * step,
+                       .slipMetresPerSecond = metresPerSecond,
+                       .onA = {metresPerSecond * step * static_cast<double>(n + 1), metresPerSecond}});
         impacts.clear();
         lasting.collect({(n - 1) * stepNs, n * stepNs, (n + 1) * stepNs, 0.0, {}}, impacts);
         lasting.endStep();
-        for (const Impact& impact : impacts) {
-            CollisionEvent event;
-            event.timeNs = impact.timeNs;
-            event.frequencyHz = frequencyHz;
-            event.decayPerSecond = decayPerSecond;
-            event.amplitude = impact.newtonSeconds / massKg;
-            events.push_back(event);
-        }
+        for (const Impact& impact : impacts)
+            events.push_back({.timeNs = impact.timeNs,
+                              .frequencyHz = frequencyHz,
+                              .decayPerSecond = decayPerSecond,
+                              .amplitude = impact.newtonSeconds / massKg});
     }
     EnchanterLayout layout;
     layoutPreset("phone1", layout);

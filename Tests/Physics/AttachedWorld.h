@@ -41,6 +41,12 @@ protected:
         return *world.CreateBody(&def)->CreateFixture(&fixture);
     }
 
+    /// The fixture, with these values.
+    b2Fixture& give(b2Fixture& fixture, const HapticFixture& values) {
+        (void)attachment.set(fixture, values);
+        return fixture;
+    }
+
     /// 1 x 0.5 m and Box2D's skin around it, turned by `angle`, its lowest point `gap` above the floor.
     b2Fixture& box(float gap, float angle, float speedDown) {
         const float lowest = 0.5F * std::sin(std::abs(angle)) + 0.25F * std::cos(angle) + b2_polygonRadius;
@@ -71,6 +77,13 @@ protected:
         for (int i = 0; i <= steps; ++i) attachment.step(0.01F);
         attachment.take(events);
         return events;
+    }
+
+    /// The one event of so many steps.
+    CollisionEvent only(int steps) {
+        const auto events = run(steps);
+        EXPECT_EQ(events.size(), 1U);
+        return events.size() == 1 ? events.front() : CollisionEvent{};
     }
 
     /// One event, as strong as the momentum that `struck` has.

@@ -66,21 +66,32 @@ struct Foreign {
     b2Fixture* ball;
 };
 
-std::vector<CollisionEvent> step(Attachment& attachment, int steps, float stepSeconds = 1.0F / 60.0F) {
-    std::vector<CollisionEvent> events;
-    for (int i = 0; i < steps; ++i) {
-        attachment.step(stepSeconds);
-        attachment.take(events);
+/// That world with an attachment.
+struct Felt : Foreign {
+    explicit Felt(const HapticFixture& ofFloor = camera, const ImpactSettings& settings = unity())
+        : attachment{world, settings} {
+        (void)attachment.set(*floor, ofFloor);
     }
-    return events;
-}
+    std::vector<CollisionEvent> step(int steps, float stepSeconds = 1.0F / 60.0F) {
+        std::vector<CollisionEvent> events;
+        for (int i = 0; i < steps; ++i) {
+            attachment.step(stepSeconds);
+            attachment.take(events);
+        }
+        return events;
+    }
+    /// Destroys what was struck in this step.
+    void destroyStruck() {
+        if (b2Body* const body = std::exchange(game.struck, nullptr)) world.DestroyBody(body);
+    }
+    Attachment attachment;
+};
 
 TEST(Attachment, ForeignWorldIsFeltAndKeepsItsCallsAndUserData) {
-    Foreign alone, felt;
-    Attachment attachment(felt.world, unity());
-    (void)attachment.set(*felt.floor, camera);
-    (void)attachment.set(*felt.ball, object);
-    const auto events = step(attachment, 120);
+    Foreign alone;
+    Felt felt;
+    (void)felt.attachment.set(*felt.ball, object);
+    const auto events = felt.step(120);
     for (int i = 0; i < 120; ++i) alone.world.Step(1.0F / 60.0F, 8, 3);
     EXPECT_GE(events.size(), 3U);
     EXPECT_TRUE(felt.game == alone.game);
@@ -94,26 +105,22 @@ TEST(Attachment, ForeignWorldIsFeltAndKeepsItsCallsAndUserData) {
     EXPECT_EQ(felt.ball->GetBody()->GetPosition(), alone.ball->GetBody()->GetPosition()); // to the bit
 }
 
-TEST(Attachment, LeavesTheWorldWithTheListenersItHad) {
-    Foreign foreign;
-    Attachment attachment(foreign.world);
-    EXPECT_NE(foreign.world.GetContactManager().m_contactListener, &foreign.game);
-    attachment.detach();
-    EXPECT_EQ(foreign.world.GetContactManager().m_contactListener, &foreign.game);
-    foreign.world.DestroyBody(foreign.ball->GetBody());
-    EXPECT_EQ(foreign.game.lostFixtures, 1);
-}
-
-TEST(Attachment, LeavesAListenerThatWasSetLater) {
-    Foreign foreign;
-    Game later;
-    Attachment attachment(foreign.world);
-    foreign.world.SetContactListener(&later);
-    foreign.world.SetDestructionListener(&later);
-    attachment.detach();
-    EXPECT_EQ(foreign.world.GetContactManager().m_contactListener, &later);
-    foreign.world.DestroyBody(foreign.ball->GetBody());
-    EXPECT_EQ(later.lostFixtures, 1);
+TEST(Attachment, LeavesTheWorldWithTheListenersItHadOrThatWereSetLater) {
+    for (const bool areSetLater : {false, true}) {
+        Foreign foreign;
+        Game later;
+        Game& game = areSetLater ? later : foreign.game;
+        Attachment attachment(foreign.world);
+        EXPECT_NE(foreign.world.GetContactManager().m_contactListener, &foreign.game);
+        if (areSetLater) {
+            foreign.world.SetContactListener(&later);
+            foreign.world.SetDestructionListener(&later);
+        }
+        attachment.detach();
+        EXPECT_EQ(foreign.world.GetContactManager().m_contactListener, &game);
+        foreign.world.DestroyBody(foreign.ball->GetBody());
+        EXPECT_EQ(game.lostFixtures, 1);
+    }
 }
 
 TEST(Attachment, HandsOnGoodbyes) {
@@ -136,154 +143,121 @@ TEST(Attachment, AttachesToAWorldInWhichBodiesTouchAlready) {
     for (int i = 0; i < 30; ++i) foreign.world.Step(1.0F / 60.0F, 8, 3); // the ball lies, the other falls
     Attachment attachment(foreign.world, unity());
     (void)attachment.set(*foreign.floor, camera);
-    EXPECT_EQ(step(attachment, 60).size(), 1U); // handed on by the one that lies
+    std::vector<CollisionEvent> events;
+    for (int i = 0; i < 60; ++i) attachment.step(1.0F / 60.0F);
+    attachment.take(events);
+    EXPECT_EQ(events.size(), 1U); // handed on by the one that lies
 }
 
-/// Destroys what was struck right after the step, as one does who may not do so inside the callback.
-class DestroyedInContact : public testing::TestWithParam<bool> {
-protected:
-    Foreign foreign;
-    Attachment attachment{foreign.world, settings()};
-    static ImpactSettings settings() {
-        ImpactSettings result = unity();
-        result.keepsHitsOfDestroyed = GetParam();
-        return result;
-    }
-    std::vector<CollisionEvent> runAndDestroy() {
-        std::vector<CollisionEvent> events;
-        for (int i = 0; i < 120; ++i) {
-            attachment.step(1.0F / 60.0F);
-            if (foreign.game.struck != nullptr) foreign.world.DestroyBody(foreign.game.struck);
-            foreign.game.struck = nullptr;
-            attachment.take(events);
+/// As one destroys who may not do so inside the callback.
+TEST(Attachment, HitsOfWhatIsDestroyedRightAfterTheStepAreFeltIfTheyAreKept) {
+    for (const bool isKept : {false, true})
+        for (const auto& [ofFloor, ofBall] :
+             {std::pair{&object, &camera}, {&camera, &object}, {&camera, nullptr}}) {
+            ImpactSettings settings = unity();
+            settings.keepsHitsOfDestroyed = isKept;
+            Felt felt{*ofFloor, settings};
+            if (ofBall != nullptr) (void)felt.attachment.set(*felt.ball, *ofBall);
+            std::vector<CollisionEvent> events;
+            for (int i = 0; i < 120; ++i) {
+                felt.attachment.step(1.0F / 60.0F);
+                felt.destroyStruck();
+                felt.attachment.take(events);
+            }
+            EXPECT_EQ(felt.game.lostFixtures, 1);
+            EXPECT_EQ(events.size(), isKept ? 1U : 0U) << ofFloor->isCamera << (ofBall != nullptr);
         }
-        EXPECT_EQ(foreign.game.lostFixtures, 1);
-        return events;
-    }
-};
-
-TEST_P(DestroyedInContact, CameraFeelsItsLastHitIfItIsKept) {
-    (void)attachment.set(*foreign.floor, object);
-    (void)attachment.set(*foreign.ball, camera);
-    EXPECT_EQ(runAndDestroy().size(), GetParam() ? 1U : 0U);
 }
-
-TEST_P(DestroyedInContact, PartnerTakesItsHitAlongUnlessItIsKept) {
-    (void)attachment.set(*foreign.floor, camera);
-    (void)attachment.set(*foreign.ball, object);
-    EXPECT_EQ(runAndDestroy().size(), GetParam() ? 1U : 0U);
-}
-
-TEST_P(DestroyedInContact, PartnerWithoutValuesDoesSoToo) {
-    (void)attachment.set(*foreign.floor, camera);
-    EXPECT_EQ(runAndDestroy().size(), GetParam() ? 1U : 0U);
-}
-INSTANTIATE_TEST_SUITE_P(KeepsHits, DestroyedInContact, testing::Bool());
 
 TEST(Attachment, SurvivesFixturesThatVanishUnnoticed) {
-    Foreign foreign;
-    Attachment attachment(foreign.world, unity());
-    (void)attachment.set(*foreign.floor, camera);
-    foreign.world.SetDestructionListener(nullptr); // nobody tells
+    Felt felt;
+    felt.world.SetDestructionListener(nullptr); // nobody tells
     for (int i = 0; i < 40; ++i) {
-        b2Fixture& ball = foreign.add(0.5F);
-        (void)attachment.set(ball, camera);
-        step(attachment, 17); // most lie on the floor by then
+        b2Fixture& ball = felt.add(0.5F);
+        (void)felt.attachment.set(ball, camera);
+        felt.step(17); // most lie on the floor by then
         if (i % 2 == 0)
-            foreign.world.DestroyBody(ball.GetBody());
+            felt.world.DestroyBody(ball.GetBody());
         else
             ball.GetBody()->DestroyFixture(&ball);
-        step(attachment, 1);
-        EXPECT_EQ(attachment.find(foreign.add(9.0F)), nullptr); // often at the same address
+        felt.step(1);
+        EXPECT_EQ(felt.attachment.find(felt.add(9.0F)), nullptr); // often at the same address
     }
-    EXPECT_GE(step(attachment, 60).size(), 1U);
+    EXPECT_GE(felt.step(60).size(), 1U);
 }
 
 TEST(Attachment, FixtureRemovedBeforeItIsDestroyedLeavesNothingToItsHeir) {
-    Foreign foreign;
-    Attachment attachment(foreign.world, unity());
-    (void)attachment.set(*foreign.floor, object);
-    const std::int32_t id = attachment.set(*foreign.ball, camera).id;
-    b2Body& body = *foreign.ball->GetBody();
-    attachment.remove(*foreign.ball);
-    EXPECT_EQ(attachment.find(*foreign.ball), nullptr);
-    body.DestroyFixture(foreign.ball);
-    b2Fixture& heir = foreign.add(1.0F);
-    EXPECT_EQ(attachment.find(heir), nullptr);
-    EXPECT_TRUE(step(attachment, 120).empty());
-    EXPECT_GT(attachment.set(heir, camera).id, id); // ids are not used again
+    Felt felt{object};
+    const std::int32_t id = felt.attachment.set(*felt.ball, camera).id;
+    b2Body& body = *felt.ball->GetBody();
+    felt.attachment.remove(*felt.ball);
+    EXPECT_EQ(felt.attachment.find(*felt.ball), nullptr);
+    body.DestroyFixture(felt.ball);
+    b2Fixture& heir = felt.add(1.0F);
+    EXPECT_EQ(felt.attachment.find(heir), nullptr);
+    EXPECT_TRUE(felt.step(120).empty());
+    EXPECT_GT(felt.attachment.set(heir, camera).id, id); // ids are not used again
 }
 
 TEST(Attachment, RemovedFixtureTakesItsEventsAlong) {
-    Foreign foreign;
-    Attachment attachment(foreign.world, unity());
-    (void)attachment.set(*foreign.floor, camera);
-    while (foreign.game.begins == 0) attachment.step(1.0F / 60.0F);
-    attachment.remove(*foreign.floor);
-    EXPECT_TRUE(step(attachment, 10).empty());
+    Felt felt;
+    while (felt.game.begins == 0) felt.attachment.step(1.0F / 60.0F);
+    felt.attachment.remove(*felt.floor);
+    EXPECT_TRUE(felt.step(10).empty());
 }
 
 TEST(Attachment, BodiesOfDestructionsBetweenStepAndEndAreSafe) {
-    Foreign foreign;
-    Attachment attachment(foreign.world, unity());
-    (void)attachment.set(*foreign.floor, camera);
-    (void)attachment.set(*foreign.ball, camera);
+    Felt felt;
+    (void)felt.attachment.set(*felt.ball, camera);
     std::vector<CollisionEvent> events;
     for (int i = 0; i < 60; ++i) {
-        attachment.beginStep(1.0 / 60.0);
-        foreign.world.Step(1.0F / 60.0F, 8, 3);
-        if (foreign.game.struck != nullptr) foreign.world.DestroyBody(foreign.game.struck);
-        foreign.game.struck = nullptr;
-        attachment.endStep();
-        attachment.take(events);
+        felt.attachment.beginStep(1.0 / 60.0);
+        felt.world.Step(1.0F / 60.0F, 8, 3);
+        felt.destroyStruck();
+        felt.attachment.endStep();
+        felt.attachment.take(events);
     }
-    EXPECT_EQ(foreign.game.lostFixtures, 1);
+    EXPECT_EQ(felt.game.lostFixtures, 1);
     EXPECT_EQ(events.size(), 2U); // what breaks is felt, by both
 }
 
 TEST(Attachment, ContactsAtTheAddressOfDestroyedOnesAreFelt) {
-    Foreign foreign;
-    Attachment attachment(foreign.world, unity());
-    (void)attachment.set(*foreign.floor, camera);
-    foreign.world.DestroyBody(foreign.ball->GetBody());
+    Felt felt;
+    felt.world.DestroyBody(felt.ball->GetBody());
     for (int round = 0; round < 4; ++round) {
         std::vector<b2Body*> balls;
-        for (int i = 0; i < 3; ++i) balls.push_back(foreign.add(0.4F).GetBody());
+        for (int i = 0; i < 3; ++i) balls.push_back(felt.add(0.4F).GetBody());
         for (int i = 0; i < 3; ++i)
             balls[static_cast<std::size_t>(i)]->SetTransform({static_cast<float>(i), 0.4F}, 0.0F);
         if (round % 2 == 0) std::reverse(balls.begin(), balls.end()); // another address is the next free one
-        for (const int begins = foreign.game.begins; foreign.game.begins == begins;) {
-            attachment.beginStep(0.01);
-            foreign.world.Step(0.01F, 8, 3);
-            if (foreign.game.begins != begins)
-                for (b2Body* body : balls) foreign.world.DestroyBody(body);
-            attachment.endStep();
+        for (const int begins = felt.game.begins; felt.game.begins == begins;) {
+            felt.attachment.beginStep(0.01);
+            felt.world.Step(0.01F, 8, 3);
+            if (felt.game.begins != begins)
+                for (b2Body* body : balls) felt.world.DestroyBody(body);
+            felt.attachment.endStep();
         }
-        b2Fixture& next = foreign.add(0.4F);
+        b2Fixture& next = felt.add(0.4F);
         // of those that broke, and its first bounce
-        EXPECT_EQ(step(attachment, 30, 0.01F).size(), 4U) << round;
-        foreign.world.DestroyBody(next.GetBody());
+        EXPECT_EQ(felt.step(30, 0.01F).size(), 4U) << round;
+        felt.world.DestroyBody(next.GetBody());
     }
 }
 
 TEST(Attachment, AttachmentsOfTwoWorldsDoNotDisturbEachOther) {
-    Foreign one, two, reference;
-    Attachment first(one.world, unity()), second(two.world, unity()), alone(reference.world, unity());
+    Felt one, two, alone;
     two.ball->SetRestitution(0.2F);
-    for (const auto& [attachment, world] : {std::pair{&first, &one}, {&second, &two}, {&alone, &reference}}) {
-        (void)attachment->set(*world->floor, camera);
-        (void)attachment->set(*world->ball, object);
-    }
-    std::vector<CollisionEvent> firstEvents, secondEvents;
+    for (Felt* felt : {&one, &two, &alone}) (void)felt->attachment.set(*felt->ball, object);
+    std::vector<CollisionEvent> events, others;
     for (int i = 0; i < 120; ++i) {
-        first.step(1.0F / 60.0F);
-        second.step(1.0F / 60.0F);
-        first.take(firstEvents);
-        second.take(secondEvents);
+        one.attachment.step(1.0F / 60.0F);
+        two.attachment.step(1.0F / 60.0F);
+        one.attachment.take(events);
+        two.attachment.take(others);
     }
-    EXPECT_EQ(firstEvents, step(alone, 120));
-    EXPECT_NE(firstEvents, secondEvents);
-    EXPECT_GE(secondEvents.size(), 1U);
+    EXPECT_EQ(events, alone.step(120));
+    EXPECT_NE(events, others);
+    EXPECT_GE(others.size(), 1U);
 }
 
 TEST(Attachment, TwoOfTheSameWorldFeelTheSame) {
@@ -304,18 +278,16 @@ TEST(Attachment, TwoOfTheSameWorldFeelTheSame) {
 }
 
 TEST(Attachment, StepsOfDifferentLengthsAddUpToTheTime) {
-    Foreign foreign;
-    Attachment attachment(foreign.world, unity());
-    (void)attachment.set(*foreign.floor, camera);
-    (void)attachment.set(*foreign.ball, object);
+    Felt felt;
+    (void)felt.attachment.set(*felt.ball, object);
     std::vector<CollisionEvent> events;
     std::int64_t expected = 0;
     for (int i = 0; events.empty() && i < 200; ++i) {
         const float length = i % 3 == 0 ? 0.004F : 0.011F;
-        attachment.step(length);
+        felt.attachment.step(length);
         expected += std::llround(static_cast<double>(length) * 1.0e9);
-        attachment.take(events);
-        EXPECT_EQ(attachment.timeNs(), expected);
+        felt.attachment.take(events);
+        EXPECT_EQ(felt.attachment.timeNs(), expected);
     }
     ASSERT_EQ(events.size(), 1U);
     const double fall = 1.0 - 0.2 - static_cast<double>(b2_polygonRadius);
@@ -358,23 +330,20 @@ TEST(Attachment, StepCountClockDoesNotDrift) {
 }
 
 TEST(Attachment, EventsAreHandedOutSortedAndOnceSettled) {
-    Foreign foreign;
-    for (int i = 2; i < 30; ++i) foreign.add(static_cast<float>(i));
-    Attachment attachment(foreign.world, unity());
-    for (b2Body* body = foreign.world.GetBodyList(); body != nullptr; body = body->GetNext())
-        (void)attachment.set(*body->GetFixtureList(), camera);
+    Felt felt;
+    (void)felt.attachment.set(*felt.ball, camera);
+    for (int i = 2; i < 30; ++i) (void)felt.attachment.set(felt.add(static_cast<float>(i)), camera);
     std::int64_t latest = 0;
     std::size_t count = 0;
-    for (int i = 0; i < 600; ++i) {
-        for (const CollisionEvent& event : step(attachment, 1)) {
+    for (int i = 0; i < 600; ++i)
+        for (const CollisionEvent& event : felt.step(1)) {
             EXPECT_GE(event.timeNs, latest);
-            EXPECT_LT(event.timeNs, attachment.settledNs());
+            EXPECT_LT(event.timeNs, felt.attachment.settledNs());
             latest = event.timeNs;
             ++count;
         }
-    }
     EXPECT_GT(count, 50U);
-    EXPECT_EQ(attachment.drops(), 0U);
+    EXPECT_EQ(felt.attachment.drops(), 0U);
 }
 
 TEST(Attachment, NormalisationFollowsTheWorldUnlessItIsGiven) {
@@ -382,31 +351,29 @@ TEST(Attachment, NormalisationFollowsTheWorldUnlessItIsGiven) {
     ImpactSettings settings;
     settings.fieldWidthMetres = 5.0;
     Attachment attachment(foreign.world, settings);
-    step(attachment, 1);
+    const auto expectHand = [&](double massKg) {
+        attachment.step(1.0F / 60.0F);
+        EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, massKg);
+    };
+    expectHand(massKg(*foreign.ball));
     EXPECT_DOUBLE_EQ(attachment.impactModel().normalisation, 0.1); // Eq. 5.7
-    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, massKg(*foreign.ball));
-    (void)attachment.set(*foreign.floor, camera); // 10 kg
-    step(attachment, 1);
-    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, 10.0);
+    (void)attachment.set(*foreign.floor, camera);                  // 10 kg
+    expectHand(10.0);
     b2Fixture& heavy = foreign.add(4.0F);
     heavy.SetDensity(1000.0F);
     heavy.GetBody()->ResetMassData();
-    step(attachment, 1);
-    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, massKg(heavy));
+    expectHand(massKg(heavy));
     heavy.GetBody()->SetEnabled(false); // out of the game, not out of the world
-    step(attachment, 1);
-    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, 10.0);
+    expectHand(10.0);
     heavy.GetBody()->SetEnabled(true);
-    step(attachment, 1);
-    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, massKg(heavy));
+    expectHand(massKg(heavy));
     foreign.world.DestroyBody(heavy.GetBody());
-    step(attachment, 1);
-    EXPECT_DOUBLE_EQ(attachment.impactModel().handMassKg, 10.0);
+    expectHand(10.0);
     settings.normalisation = 0.5;
     settings.handMassKg = 3.0;
     settings.driveGain = 2.0;
     attachment.configure(settings);
-    step(attachment, 1);
+    attachment.step(1.0F / 60.0F);
     EXPECT_DOUBLE_EQ(attachment.impactModel().amplitude(1.0, 1.0), 2.0 * 0.5 / 4.0);
 }
 
@@ -425,23 +392,19 @@ TEST(Attachment, RefusesNonsense) {
     Foreign foreign, other;
     Attachment attachment(foreign.world);
     EXPECT_FALSE(attachment.set(*other.ball, camera));
-    for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-        ImpactSettings settings;
-        settings.fieldWidthMetres = bad;
-        EXPECT_THROW(Attachment(other.world, settings), std::invalid_argument);
-        settings = {};
-        settings.handMassKg = bad;
-        EXPECT_THROW(attachment.configure(settings), std::invalid_argument);
-        settings = {};
-        settings.normalisation = bad;
-        EXPECT_THROW(attachment.configure(settings), std::invalid_argument);
-        settings = {};
-        settings.driveGain = bad;
-        EXPECT_THROW(attachment.configure(settings), std::invalid_argument);
-        settings = {};
-        settings.thresholdMetresPerSecond = bad;
-        EXPECT_THROW(attachment.configure(settings), std::invalid_argument);
-    }
+    void (*const changes[])(ImpactSettings&,
+                            double){[](ImpactSettings& s, double x) { s.fieldWidthMetres = x; },
+                                    [](ImpactSettings& s, double x) { s.handMassKg = x; },
+                                    [](ImpactSettings& s, double x) { s.normalisation = x; },
+                                    [](ImpactSettings& s, double x) { s.driveGain = x; },
+                                    [](ImpactSettings& s, double x) { s.thresholdMetresPerSecond = x; }};
+    for (const auto change : changes)
+        for (const double bad : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+            ImpactSettings settings;
+            change(settings, bad);
+            EXPECT_THROW(Attachment(other.world, settings), std::invalid_argument);
+            EXPECT_THROW(attachment.configure(settings), std::invalid_argument);
+        }
     EXPECT_EQ(other.world.GetContactManager().m_contactListener, &other.game); // nothing half attached
 }
 

@@ -15,7 +15,7 @@ TEST_F(AttachedWorld, AStaticBodyThatWentUnheardWeighsNothing) {
     b2Fixture& heavy = edge({-100.0F, -5.0F}, {100.0F, -5.0F});
     HapticFixture values = camera;
     values.staticMassKg = 1000.0;
-    (void)attachment.set(heavy, values);
+    give(heavy, values);
     ImpactSettings settings;
     settings.normalisation = 1.0; // the hand's mass is the largest in the world
     attachment.configure(settings);
@@ -45,7 +45,7 @@ TEST_F(AttachedWorld, WhyNothingIsFeltIsSaid) {
     const std::string why = attachment.explain();
     EXPECT_NE(why.find("haptic source: set isCamera"), std::string::npos) << why;
     EXPECT_EQ(attachment.counts().withoutSource, attachment.counts().contacts);
-    (void)attachment.set(slow, camera);
+    give(slow, camera);
     slow.GetBody()->SetTransform({0.0F, 0.3F}, 0.0F);
     slow.GetBody()->SetLinearVelocity({0.0F, -0.05F});
     EXPECT_TRUE(run(150).empty());

@@ -9,8 +9,8 @@ namespace {
 using CollisionCatcherWorld = AttachedWorld;
 
 TEST_F(CollisionCatcherWorld, TwoMovingCamerasMeetAtTheRightMoment) {
-    (void)attachment.set(ball(-1.0F, 1.0F, 3.0F, 0.0F), camera);
-    (void)attachment.set(ball(1.0F, 1.0F, -4.0F, 0.0F), camera);
+    give(ball(-1.0F, 1.0F, 3.0F, 0.0F), camera);
+    give(ball(1.0F, 1.0F, -4.0F, 0.0F), camera);
     const auto events = run(50);
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events[0].source.fixture, 0);
@@ -22,20 +22,19 @@ TEST_F(CollisionCatcherWorld, TwoMovingCamerasMeetAtTheRightMoment) {
 }
 
 TEST_F(CollisionCatcherWorld, HitsOfTheTimeOfImpactPassAreTimedWithinTheirStep) {
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 2.0F, 0.0F, -13.7F), object);
-    const auto events = run(30);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_NEAR(seconds(events[0]), 1.75 / 13.7, 1.0e-5);
+    give(floor(), camera);
+    give(ball(0.0F, 2.0F, 0.0F, -13.7F), object);
+    const CollisionEvent event = only(30);
+    EXPECT_NEAR(seconds(event), 1.75 / 13.7, 1.0e-5);
 }
 
 TEST_F(CollisionCatcherWorld, SecondImpactWithinOneStepIsTimedToo) {
     // Into the corner of floor and wall at 15 and 12 m/s: both touched between 100 and 110 ms.
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(edge({0.0F, -100.0F}, {0.0F, 100.0F}), camera);
+    give(floor(), camera);
+    give(edge({0.0F, -100.0F}, {0.0F, 100.0F}), camera);
     b2Fixture& fast = ball(0.25F + 12.0F * 0.1075F, 0.25F + 15.0F * 0.1025F, -12.0F, -15.0F);
     fast.SetFriction(0.0F);
-    (void)attachment.set(fast, object);
+    give(fast, object);
     const auto events = run(30);
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events[0].source.fixture, 0);
@@ -45,35 +44,29 @@ TEST_F(CollisionCatcherWorld, SecondImpactWithinOneStepIsTimedToo) {
 }
 
 TEST_F(CollisionCatcherWorld, FrictionIsPartOfTheImpulse) {
-    (void)attachment.set(floor(), camera);
-    b2Fixture& sliding = ball(0.0F, 0.5F, 5.0F, -5.0F);
-    (void)attachment.set(sliding, object);
+    give(floor(), camera);
+    b2Fixture& sliding = give(ball(0.0F, 0.5F, 5.0F, -5.0F), object);
     const b2Vec2 before = sliding.GetBody()->GetLinearVelocity();
-    const auto events = run(10);
-    ASSERT_EQ(events.size(), 1U);
+    const CollisionEvent event = only(10);
     const b2Vec2 change = sliding.GetBody()->GetLinearVelocity() - before;
     EXPECT_LT(change.x, -0.1F); // or there was no friction to see
-    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, sliding.GetBody()->GetMass() * change.Length(),
-                1.0e-3);
+    EXPECT_NEAR(event.source.impulseNewtonSeconds, sliding.GetBody()->GetMass() * change.Length(), 1.0e-3);
 }
 
 TEST_F(CollisionCatcherWorld, FlatLandingSumsBothPointsAndIsFeltInTheMiddle) {
-    (void)attachment.set(floor(), camera);
-    b2Fixture& landing = box(0.5F, 0.0F, 5.0F);
-    (void)attachment.set(landing, object);
-    const auto events = run(20);
-    ASSERT_EQ(events.size(), 1U);
+    give(floor(), camera);
+    b2Fixture& landing = give(box(0.5F, 0.0F, 5.0F), object);
+    const CollisionEvent event = only(20);
     const double expected = landing.GetBody()->GetMass() * 5.0 * 1.5;
-    EXPECT_NEAR(events[0].source.impulseNewtonSeconds, expected, 0.01 * expected);
-    EXPECT_NEAR(events[0].x, 0.0, 1.0e-3);
+    EXPECT_NEAR(event.source.impulseNewtonSeconds, expected, 0.01 * expected);
+    EXPECT_NEAR(event.x, 0.0, 1.0e-3);
 }
 
 TEST_F(CollisionCatcherWorld, TiltedLandingIsTimedByTheLowerCorner) {
-    (void)attachment.set(floor(), camera);
+    give(floor(), camera);
     for (const float tilt : {0.003F, -0.003F}) {
         const double start = static_cast<double>(attachment.timeNs()) * 1.0e-9;
-        b2Fixture& landing = box(0.48F, tilt, 5.0F);
-        (void)attachment.set(landing, object);
+        b2Fixture& landing = give(box(0.48F, tilt, 5.0F), object);
         const auto events = run(12);
         ASSERT_GE(events.size(), 1U);
         EXPECT_NEAR(seconds(events[0]) - start, 0.096, 2.0e-4);
@@ -82,8 +75,8 @@ TEST_F(CollisionCatcherWorld, TiltedLandingIsTimedByTheLowerCorner) {
 }
 
 TEST_F(CollisionCatcherWorld, PassesOfAStepAreOneHit) {
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.26F, 0.0F, -5.0F, 0.0F), object);
+    give(floor(), camera);
+    give(ball(0.0F, 0.26F, 0.0F, -5.0F, 0.0F), object);
     ASSERT_EQ(run(1).size(), 1U);
     b2Contact* contact = world.GetContactList();
     b2ContactListener& catcher = *world.GetContactManager().m_contactListener;
@@ -97,42 +90,31 @@ TEST_F(CollisionCatcherWorld, PassesOfAStepAreOneHit) {
         catcher.PostSolve(contact, &impulse);
     }
     attachment.endStep();
-    const auto events = run(0);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_DOUBLE_EQ(events[0].source.impulseNewtonSeconds, 10.0); // twice (3, 4)
+    const CollisionEvent event = only(0);
+    EXPECT_DOUBLE_EQ(event.source.impulseNewtonSeconds, 10.0); // twice (3, 4)
 }
 
 TEST_F(CollisionCatcherWorld, BodiesThatStartInEachOtherHitAtTimeZero) {
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.2F, 0.0F, -1.0F), object);
-    const auto events = run(5);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_EQ(events[0].timeNs, 0);
+    give(floor(), camera);
+    give(ball(0.0F, 0.2F, 0.0F, -1.0F), object);
+    const CollisionEvent event = only(5);
+    EXPECT_EQ(event.timeNs, 0);
 }
 
 TEST_F(CollisionCatcherWorld, HitsLieAtMostOneStepInThePast) {
     run(9);
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.2F, 0.0F, -1.0F), object); // put 50 ms deep into the floor
-    const auto events = run(5);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_EQ(events[0].timeNs, 90'000'000);
+    give(floor(), camera);
+    give(ball(0.0F, 0.2F, 0.0F, -1.0F), object); // put 50 ms deep into the floor
+    const CollisionEvent event = only(5);
+    EXPECT_EQ(event.timeNs, 90'000'000);
 }
 
 TEST_F(CollisionCatcherWorld, HitsAboveTheThresholdAloneAreStrikes) {
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.26F, 0.0F, -0.14F), object);
+    give(floor(), camera);
+    give(ball(0.0F, 0.26F, 0.0F, -0.14F), object);
     EXPECT_TRUE(run(100).empty());
-    (void)attachment.set(ball(5.0F, 0.26F, 0.0F, -0.16F), object);
+    give(ball(5.0F, 0.26F, 0.0F, -0.16F), object);
     EXPECT_EQ(run(100).size(), 1U);
-}
-
-TEST_F(CollisionCatcherWorld, RestingBallStrikesOnce) {
-    world.SetGravity({0.0F, -10.0F});
-    world.SetAllowSleeping(false);
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.27F, 0.0F, -0.5F), object); // too slow for Box2D to bounce
-    EXPECT_EQ(run(1000).size(), 1U);
 }
 
 TEST_F(CollisionCatcherWorld, ThresholdCountsTheLighterBody) {
@@ -140,37 +122,35 @@ TEST_F(CollisionCatcherWorld, ThresholdCountsTheLighterBody) {
     b2Fixture& heavy = ball(0.0F, 1.0F, 0.0F, 0.0F);
     heavy.SetDensity(1.0e5F);
     heavy.GetBody()->ResetMassData();
-    (void)attachment.set(light, object);
-    (void)attachment.set(heavy, camera);
-    const auto events = run(100);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_EQ(events[0].source.fixture, 1);
+    give(light, object);
+    give(heavy, camera);
+    const CollisionEvent event = only(100);
+    EXPECT_EQ(event.source.fixture, 1);
 }
 
 TEST_F(CollisionCatcherWorld, UnknownFixturesAreFeltButNotNamed) {
-    (void)attachment.set(floor(), camera);
+    give(floor(), camera);
     ball(0.0F, 0.5F, 0.0F, -5.0F);
-    const auto events = run(20);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_EQ(events[0].source.fixture, 0);
-    EXPECT_EQ(events[0].source.other, -1);
+    const CollisionEvent event = only(20);
+    EXPECT_EQ(event.source.fixture, 0);
+    EXPECT_EQ(event.source.other, -1);
 }
 
 TEST_F(CollisionCatcherWorld, SensorsAreNotHit) {
     b2Fixture& sensor = floor();
     sensor.SetSensor(true);
-    (void)attachment.set(sensor, camera);
-    (void)attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    give(sensor, camera);
+    give(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
     EXPECT_TRUE(run(50).empty());
 }
 
 TEST_F(CollisionCatcherWorld, WeakestContactsAreLeftOutWhereThereIsNoRoomAndCounted) {
     constexpr int balls = static_cast<int>(CollisionCatcher::maxDirectCollisions) + 10;
-    (void)attachment.set(floor(), camera);
+    give(floor(), camera);
     for (int i = 0; i < balls; ++i)
-        (void)attachment.set(ball(-90.0F + 0.16F * static_cast<float>(i), 0.24F, 0.0F,
-                                  i % 100 == 7 && i / 100 < 10 ? -1.0F : -2.0F),
-                             object);
+        give(ball(-90.0F + 0.16F * static_cast<float>(i), 0.24F, 0.0F,
+                  i % 100 == 7 && i / 100 < 10 ? -1.0F : -2.0F),
+             object);
     b2Filter apart;
     apart.groupIndex = -1;
     for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
@@ -189,8 +169,8 @@ TEST_F(CollisionCatcherWorld, ContactsOfOthersDoNotTakeTheRoomOfCameras) {
         ball(x, y, 0.5F, 0.0F);
         ball(x + 0.4F, y, 0.0F, 0.0F);
     }
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.24F, 0.0F, -1.0F), object);
+    give(floor(), camera);
+    give(ball(0.0F, 0.24F, 0.0F, -1.0F), object);
     EXPECT_EQ(run(0).size(), 0U); // not final before the next step
     EXPECT_EQ(attachment.drops(), 10U);
     EXPECT_EQ(run(0).size(), 1U);
@@ -198,10 +178,10 @@ TEST_F(CollisionCatcherWorld, ContactsOfOthersDoNotTakeTheRoomOfCameras) {
 
 TEST_F(CollisionCatcherWorld, GravityRaisesTheThresholdOverWhatRestingContactsGet) {
     world.SetGravity({0.0F, -40.0F}); // 0.4 m/s in every step
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.249F, 0.0F, 0.0F), object); // begins to touch, and rests
+    give(floor(), camera);
+    give(ball(0.0F, 0.249F, 0.0F, 0.0F), object); // begins to touch, and rests
     EXPECT_TRUE(run(100).empty());
-    (void)attachment.set(ball(5.0F, 0.5F, 0.0F, -2.0F), object);
+    give(ball(5.0F, 0.5F, 0.0F, -2.0F), object);
     EXPECT_FALSE(run(100).empty());
 }
 

@@ -7,7 +7,14 @@
 namespace physvib {
 namespace {
 
-using ForeignWorld = AttachedWorld;
+class ForeignWorld : public AttachedWorld {
+protected:
+    /// A ball that strikes a floor with a camera.
+    void land() {
+        give(floor(), camera);
+        give(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    }
+};
 
 class Listener : public b2ContactListener, public b2DestructionListener {
 public:
@@ -22,16 +29,14 @@ TEST_F(ForeignWorld, WithoutAListenerIsFeltAsWell) {
     bare.SetContactListener(nullptr);
     Attachment onBare(bare, unity());
     onBare.step(0.01F);
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    land();
     world.SetContactListener(nullptr);
     EXPECT_EQ(run(20).size(), 1U);
 }
 
 TEST_F(ForeignWorld, ListenerSetLaterIsCalledAndTheWorldIsFelt) {
     Listener later;
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    land();
     world.SetContactListener(&later);
     world.SetDestructionListener(&later);
     EXPECT_EQ(run(20).size(), 1U);
@@ -64,19 +69,18 @@ public:
 
 TEST_F(ForeignWorld, ListenerThatHandsCallsBackIsCalledOnce) {
     Forwarding game(world);
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    land();
     EXPECT_EQ(run(20).size(), 1U);
     EXPECT_EQ(game.begins, 1);
 }
 
 TEST_F(ForeignWorld, FixtureMadeBetweenBeginAndStepIsFelt) {
-    (void)attachment.set(floor(), camera);
+    give(floor(), camera);
     run(3);
     attachment.beginStep(0.01);
     std::vector<b2Fixture*> late;
     for (int i = 0; i < 100; ++i) late.push_back(&ball(0.6F * static_cast<float>(i), 0.26F, 0.0F, -5.0F));
-    for (const b2Fixture* each : late) (void)attachment.set(*each, camera);
+    for (b2Fixture* each : late) give(*each, camera);
     world.Step(0.01F, 8, 3);
     attachment.endStep();
     std::size_t count = 0;
@@ -91,11 +95,10 @@ TEST_P(DestroyedBeforeTheEnd, FixturesAndBodiesAreFeltByWhatTheStepKnew) {
     settings.location = ImpactLocation::fixture;
     settings.timing = GetParam();
     attachment.configure(settings);
-    (void)attachment.set(floor(), object);
+    give(floor(), object);
     Listener own;
     for (int round = 0; round < 3; ++round) {
-        b2Fixture& struck = ball(0.0F, 0.26F, 0.0F, -5.0F);
-        (void)attachment.set(struck, camera);
+        b2Fixture& struck = give(ball(0.0F, 0.26F, 0.0F, -5.0F), camera);
         attachment.beginStep(0.01);
         world.Step(0.01F, 8, 3);
         if (round == 0) struck.GetBody()->DestroyFixture(&struck);
@@ -142,25 +145,25 @@ TEST(ForeignWorldLife, AttachmentsMayEndInAnyOrderAndTheGameIsStillCalled) {
 }
 
 TEST_F(ForeignWorld, OriginMovesAndEventsStayInTheField) {
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(2.0F, 0.26F, 0.0F, -5.0F), object);
+    give(floor(), camera);
+    give(ball(2.0F, 0.26F, 0.0F, -5.0F), object);
     attachment.step(0.01F); // struck, and not yet final
     attachment.shiftOrigin({1000.0F, 0.0F});
     const auto events = run(2);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_NEAR(events[0].x, 2.0, 0.01);
-    (void)attachment.set(ball(-995.0F, 0.26F, 0.0F, -5.0F), object);
+    give(ball(-995.0F, 0.26F, 0.0F, -5.0F), object);
     const auto later = run(2);
     ASSERT_EQ(later.size(), 1U);
     EXPECT_NEAR(later[0].x, 5.0, 0.01);
 }
 
 TEST_F(ForeignWorld, FieldMayLieAnywhereAndMove) {
-    (void)attachment.set(floor(), camera);
+    give(floor(), camera);
     ImpactSettings settings = unity();
     settings.fieldOrigin = {-41.0F, -1.0F};
     attachment.configure(settings);
-    (void)attachment.set(ball(-41.0F, 0.26F, 0.0F, -5.0F), object);
+    give(ball(-41.0F, 0.26F, 0.0F, -5.0F), object);
     auto events = run(2);
     ASSERT_EQ(events.size(), 1U);
     EXPECT_NEAR(events[0].x, 0.0, 0.01);
@@ -168,18 +171,17 @@ TEST_F(ForeignWorld, FieldMayLieAnywhereAndMove) {
     settings.fieldOrigin = {3.0F, 0.0F};
     settings.fieldRadians = 0.5F * b2_pi; // the device lies on its side
     attachment.configure(settings);
-    (void)attachment.set(ball(3.0F, 0.26F, 0.0F, -5.0F), object);
-    (void)attachment.set(ball(8.0F, 0.26F, 0.0F, -5.0F), object);
+    give(ball(3.0F, 0.26F, 0.0F, -5.0F), object);
+    give(ball(8.0F, 0.26F, 0.0F, -5.0F), object);
     events = run(2);
     ASSERT_EQ(events.size(), 2U);
     EXPECT_NEAR(std::min(events[0].y, events[1].y), -5.0, 0.01);
 }
 
 TEST_F(ForeignWorld, AddressUsedAgainInheritsNothing) {
-    (void)attachment.set(floor(), camera);
+    give(floor(), camera);
     for (int i = 0; i < 50; ++i) {
-        b2Fixture& first = ball(0.0F, 5.0F, 0.0F, 0.0F);
-        (void)attachment.set(first, {100.0, 10.0, true, 0.0, Voice::own});
+        b2Fixture& first = give(ball(0.0F, 5.0F, 0.0F, 0.0F), {100.0, 10.0, true, 0.0, Voice::own});
         world.SetDestructionListener(nullptr);
         if (i % 2 == 0) run(0); // notices what happened to the listener, or not
         b2Body* const body = first.GetBody();
@@ -196,7 +198,7 @@ TEST_F(ForeignWorld, AddressUsedAgainInheritsNothing) {
 
 TEST_F(ForeignWorld, RefusesWhatCannotBePlayed) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const b2Fixture& ground = floor();
+    b2Fixture& ground = floor();
     for (const HapticFixture& bad : {HapticFixture{nan, 10.0},
                                      {-5.0, 10.0},
                                      {1.0e6, 10.0},
@@ -214,8 +216,8 @@ TEST_F(ForeignWorld, RefusesWhatCannotBePlayed) {
 }
 
 TEST_F(ForeignWorld, FlushGivesEventsAtOnce) {
-    (void)attachment.set(floor(), camera);
-    (void)attachment.set(ball(0.0F, 0.26F, 0.0F, -5.0F), object);
+    give(floor(), camera);
+    give(ball(0.0F, 0.26F, 0.0F, -5.0F), object);
     std::vector<CollisionEvent> events;
     attachment.step(0.01F);
     attachment.take(events);

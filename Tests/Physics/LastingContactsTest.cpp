@@ -33,27 +33,31 @@ protected:
         values.texture.pattern = pattern;
         return values;
     }
-    b2Fixture& slope(double degrees, const HapticFixture& values) {
+    void slope(double degrees, const HapticFixture& values, float friction = 1.0F) {
         const auto angle = static_cast<float>(-degrees * std::numbers::pi / 180.0);
-        b2Fixture& fixture = edge({-20.0F * std::cos(angle), -20.0F * std::sin(angle)},
-                                  {80.0F * std::cos(angle), 80.0F * std::sin(angle)});
         along = {std::cos(angle), std::sin(angle)};
-        fixture.SetFriction(1.0F);
-        (void)attachment.set(fixture, values);
-        return fixture;
+        give(edge(top - 20.0F * along, top + 80.0F * along), values).SetFriction(friction);
     }
-    /// A ball of 0.25 m that touches the slope at its origin.
-    b2Fixture& ballOnSlope(float friction) {
-        b2Fixture& fixture = ball(-0.25F * along.y, 0.25F * along.x, 0.0F, 0.0F, 0.0F);
+    /// A ball of 0.25 m that touches the slope at its origin, and moves.
+    b2Body& ballOnSlope(float friction, float speed = 0.0F, float spin = 0.0F) {
+        b2Fixture& fixture = ball(top.x - 0.25F * along.y, top.y + 0.25F * along.x, speed, 0.0F, 0.0F);
         fixture.SetFriction(friction);
-        return fixture;
+        fixture.GetBody()->SetAngularVelocity(spin);
+        return *fixture.GetBody();
+    }
+    b2Body& boxOnSlope(float friction, float speed = 0.0F) {
+        b2Fixture& fixture = box(0.0F, 0.0F, 0.0F);
+        fixture.SetFriction(friction);
+        fixture.SetRestitution(0.0F);
+        fixture.GetBody()->SetLinearVelocity({speed, 0.0F});
+        return *fixture.GetBody();
     }
     std::vector<CollisionEvent> lasting(int steps) {
         std::vector<CollisionEvent> events = run(steps);
         std::erase_if(events, [](const CollisionEvent& e) { return e.source.kind == ContactKind::hit; });
         return events;
     }
-    b2Vec2 along{1.0F, 0.0F};
+    b2Vec2 top{0.0F, 0.0F}, along{1.0F, 0.0F};
 };
 
 /// How far the nearest grain of fixture 0 is from where the path is at that time.
@@ -86,7 +90,7 @@ TEST_F(Lasting, RollingBallIsFeltAsRollingAndTravels) {
     constexpr double spacing = 0.002;
     const HapticFixture values = rough(spacing);
     slope(20.0, values);
-    const b2Body& ball = *ballOnSlope(1.0F).GetBody();
+    const b2Body& ball = ballOnSlope(1.0F);
     const auto metres = [&] { return static_cast<double>(b2Dot(ball.GetPosition(), along)); };
     const auto speed = [&] { return static_cast<double>(b2Dot(ball.GetLinearVelocity(), along)); };
     lasting(9); // the solver takes a few steps to roll as it should
@@ -107,7 +111,7 @@ TEST_F(Lasting, RollingBallIsFeltAsRollingAndTravels) {
 
 TEST_F(Lasting, RidgesGiveTheirTone) {
     slope(0.0, rough(0.002, GrainPattern::regular));
-    ballOnSlope(0.0F).GetBody()->SetLinearVelocity({0.4F, 0.0F});
+    ballOnSlope(0.0F, 0.4F);
     const std::vector<CollisionEvent> events = lasting(200);
     ASSERT_GT(events.size(), 300U);
     for (std::size_t i = 1; i < events.size(); ++i)
@@ -116,9 +120,8 @@ TEST_F(Lasting, RidgesGiveTheirTone) {
 
 TEST_F(Lasting, SlidesThenRollsThenRests) {
     slope(0.0, rough(0.001));
-    b2Fixture& ball = ballOnSlope(0.2F);
-    ball.GetBody()->SetLinearVelocity({2.0F, 0.0F});
-    ball.GetBody()->SetAngularVelocity(8.0F); // back-spin of as much again: it slides until 2/3 (v - w r / 2)
+    b2Body& ball = ballOnSlope(0.2F, 2.0F, 8.0F); // back-spin of as much again: it slides until 2/3 (v - w r
+                                                  // / 2)
     // Box2D mixes frictions by their geometric mean
     const double friction = std::sqrt(0.2), v = 2.0, spin = 8.0 * 0.25;
     const double slides = (v + spin) / (3.0 * friction * g), rolling = v - friction * g * slides;
@@ -128,18 +131,16 @@ TEST_F(Lasting, SlidesThenRollsThenRests) {
     ASSERT_NE(firstRoll, events.end());
     // slips half as fast as it goes
     EXPECT_NEAR(seconds(*firstRoll), (0.5 * v + spin) / (2.5 * friction * g), 0.01);
-    EXPECT_NEAR(static_cast<double>(ball.GetBody()->GetLinearVelocity().x), rolling, 0.02);
-    ball.GetBody()->SetLinearVelocity({0.0F, 0.0F});
-    ball.GetBody()->SetAngularVelocity(0.0F);
+    EXPECT_NEAR(static_cast<double>(ball.GetLinearVelocity().x), rolling, 0.02);
+    ball.SetLinearVelocity({0.0F, 0.0F});
+    ball.SetAngularVelocity(0.0F);
     lasting(1);
     EXPECT_TRUE(lasting(100).empty());
 }
 
 TEST_F(Lasting, ThrownWithBackSpinItTurnsBackAndRolls) {
     slope(0.0, rough(0.001));
-    b2Fixture& ball = ballOnSlope(0.2F);
-    ball.GetBody()->SetLinearVelocity({1.0F, 0.0F});
-    ball.GetBody()->SetAngularVelocity(20.0F); // back-spin of five times as much
+    const b2Body& ball = ballOnSlope(0.2F, 1.0F, 20.0F); // back-spin of five times as much
     const double deceleration = std::sqrt(0.2) * g, v = 1.0, spin = 20.0 * 0.25;
     const std::vector<CollisionEvent> events = lasting(100);
     const double furthest = v * v / (2.0 * deceleration);
@@ -155,15 +156,12 @@ TEST_F(Lasting, ThrownWithBackSpinItTurnsBackAndRolls) {
         const double slid = (v - 0.5 * deceleration * t) * t - 0.5 * 0.01 * v;
         if (t < rolls - 0.02) EXPECT_NEAR(event.x, slid, 0.001) << t;
     }
-    EXPECT_NEAR(static_cast<double>(ball.GetBody()->GetLinearVelocity().x), v - (v + spin) / 3.0, 0.02);
+    EXPECT_NEAR(static_cast<double>(ball.GetLinearVelocity().x), v - (v + spin) / 3.0, 0.02);
 }
 
 TEST_F(Lasting, BoxSlidesUntilItSticksAndIsSilentFromThenOn) {
     slope(0.0, rough(0.001));
-    b2Fixture& fixture = box(0.0F, 0.0F, 0.0F);
-    fixture.SetFriction(0.09F); // and the floor's 1: 0.3 together
-    fixture.SetRestitution(0.0F);
-    fixture.GetBody()->SetLinearVelocity({1.5F, 0.0F});
+    boxOnSlope(0.09F, 1.5F); // and the floor's friction of 1: 0.3 together
     const std::vector<CollisionEvent> events = lasting(150);
     const double sticks = 1.5 / (0.3 * g);
     ASSERT_GT(events.size(), 600U); // 0.375 m by each corner
@@ -173,18 +171,14 @@ TEST_F(Lasting, BoxSlidesUntilItSticksAndIsSilentFromThenOn) {
 
 TEST_F(Lasting, BoxThatFrictionHoldsOnASlopeIsSilent) {
     slope(10.0, rough(0.0005));
-    b2Fixture& fixture = box(0.0F, 0.0F, 0.0F);
-    const float angle = std::atan2(along.y, along.x);
-    fixture.GetBody()->SetTransform({0.26F * -along.y, 0.26F * along.x}, angle);
-    fixture.SetFriction(0.25F); // holds up to 26 degrees
-    fixture.SetRestitution(0.0F);
+    boxOnSlope(0.25F) // holds up to 26 degrees
+        .SetTransform({0.26F * -along.y, 0.26F * along.x}, std::atan2(along.y, along.x));
     EXPECT_TRUE(lasting(200).empty());
 }
 
 TEST_F(Lasting, GoingBackFeelsTheSameGrains) {
     slope(0.0, rough(0.002));
-    b2Fixture& ball = ballOnSlope(0.0F);
-    ball.GetBody()->SetLinearVelocity({0.5F, 0.0F});
+    ballOnSlope(0.0F, 0.5F);
     world.SetGravity({-2.0F, -10.0F}); // up to 62.5 mm, and back
     const std::vector<CollisionEvent> events = lasting(50);
     std::vector<double> there, back;
@@ -196,10 +190,7 @@ TEST_F(Lasting, GoingBackFeelsTheSameGrains) {
 
 TEST_F(Lasting, BoxFeelsTheFloorWithBothItsCorners) {
     slope(0.0, rough(0.01));
-    b2Fixture& fixture = box(0.0F, 0.0F, 0.0F);
-    fixture.SetFriction(0.0F);
-    fixture.SetRestitution(0.0F);
-    fixture.GetBody()->SetLinearVelocity({1.0F, 0.0F});
+    boxOnSlope(0.0F, 1.0F);
     const std::vector<CollisionEvent> events = lasting(100);
     EXPECT_NEAR(static_cast<double>(events.size()), 2.0 * 99.0, 6.0);
     double left = 0.0, right = 0.0;
@@ -208,14 +199,10 @@ TEST_F(Lasting, BoxFeelsTheFloorWithBothItsCorners) {
 }
 
 TEST_F(Lasting, RoughBallIsFeltOnASmoothFloorOnceARevolution) {
-    HapticFixture smooth = camera;
-    slope(0.0, smooth);
-    b2Fixture& ball = ballOnSlope(1.0F);
+    slope(0.0, camera);
     HapticFixture rough = object;
     rough.texture.grainMetres = 0.01;
-    (void)attachment.set(ball, rough);
-    ball.GetBody()->SetLinearVelocity({1.0F, 0.0F});
-    ball.GetBody()->SetAngularVelocity(-4.0F);
+    give(*ballOnSlope(1.0F, 1.0F, -4.0F).GetFixtureList(), rough);
     const std::vector<CollisionEvent> events = lasting(157); // once around
     EXPECT_NEAR(static_cast<double>(events.size()), 156.0, 4.0);
     for (const CollisionEvent& event : events) EXPECT_EQ(event.source.kind, ContactKind::roll);
@@ -230,9 +217,7 @@ TEST_F(Lasting, SmoothOrUnfeltIsSilent) {
 TEST_F(Lasting, RestIsSilentAndLandingIsACollisionOnly) {
     slope(0.0, rough(0.0005));
     ball(0.0F, 1.0F, 0.0F, 0.0F, 0.0F);
-    const std::vector<CollisionEvent> events = run(200);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_EQ(events.front().source.kind, ContactKind::hit);
+    EXPECT_EQ(only(200).source.kind, ContactKind::hit);
 }
 
 TEST_F(Lasting, SeamsOfAChainAreNotHeard) {
@@ -242,8 +227,8 @@ TEST_F(Lasting, SeamsOfAChainAreNotHeard) {
     b2ChainShape shape;
     shape.CreateChain(links.data(), static_cast<int>(links.size()), {0.3F, 0.0F}, {-6.1F, 0.0F});
     const b2BodyDef def;
-    b2Fixture& chain = *world.CreateBody(&def)->CreateFixture(&shape, 0.0F);
-    (void)attachment.set(chain, rough(0.005, GrainPattern::regular));
+    b2Fixture& chain =
+        give(*world.CreateBody(&def)->CreateFixture(&shape, 0.0F), rough(0.005, GrainPattern::regular));
     b2Fixture& ball = this->ball(0.0F, 0.25F + b2_polygonRadius, -1.0F, 0.0F, 0.0F);
     ball.SetFriction(0.0F);
     const std::vector<CollisionEvent> events = lasting(500);
@@ -258,22 +243,9 @@ constexpr int rate = 48'000;
 constexpr double fieldWidth = 4.4, fieldHeight = 1.7;
 
 /// A rough slope from the field's upper left corner, and a ball of 0.25 m that touches it there.
-class LastingFelt : public AttachedWorld {
+class LastingFelt : public Lasting {
 protected:
-    LastingFelt() {
-        world.SetGravity({0.0F, -10.0F});
-        world.SetAllowSleeping(false);
-    }
-    b2Fixture& slope(double degrees, const HapticFixture& values, float friction) {
-        const auto angle = static_cast<float>(-degrees * std::numbers::pi / 180.0);
-        along = {std::cos(angle), std::sin(angle)};
-        const b2Vec2 top{0.0F, static_cast<float>(fieldHeight)};
-        b2Fixture& ground = edge(top - 20.0F * along, top + 80.0F * along);
-        (void)attachment.set(ground, values);
-        b2Fixture& fixture = ball(top.x - 0.25F * along.y, top.y + 0.25F * along.x, 0.0F, 0.0F, 0.0F);
-        for (b2Fixture* each : {&ground, &fixture}) each->SetFriction(friction);
-        return fixture;
-    }
+    LastingFelt() { top.y = static_cast<float>(fieldHeight); }
     /// Four channels of what has happened.
     static test::Channels felt(const std::vector<CollisionEvent>& events, PanningLaw law, double length) {
         EnchanterLayout layout;
@@ -282,7 +254,6 @@ protected:
         settings.limiterEnabled = false;
         return test::renderEvents(events, settings, static_cast<int>(length * rate)).channels;
     }
-    b2Vec2 along{1.0F, 0.0F};
 };
 
 double power(std::span<const float> samples) {
@@ -308,7 +279,8 @@ TEST_F(LastingFelt, PhantomFollowsARollingBall) {
     constexpr double length = 1.8, window = 0.05;
     HapticFixture wood{349.0, 106.99, true, 10.0};
     wood.texture.grainMetres = 0.002;
-    const b2Body& ball = *slope(20.0, wood, 1.0F).GetBody();
+    slope(20.0, wood);
+    const b2Body& ball = ballOnSlope(1.0F);
     std::vector<b2Vec2> touches; // after each step of 10 ms
     std::vector<CollisionEvent> events;
     for (int i = 0; i < 182; ++i) {
@@ -331,7 +303,8 @@ TEST_F(LastingFelt, PhantomFollowsARollingBall) {
 TEST_F(LastingFelt, RidgesPeakAtSpeedBySpacing) {
     HapticFixture ridged{250.0, 60.0, true, 10.0};
     ridged.texture = {0.002, 1.0, GrainPattern::regular};
-    slope(0.0, ridged, 0.0F).GetBody()->SetLinearVelocity({0.4F, 0.0F});
+    slope(0.0, ridged, 0.0F);
+    ballOnSlope(0.0F, 0.4F);
     std::vector<CollisionEvent> events = run(300);
     const test::Channels channels = felt(events, PanningLaw::linear, 2.5);
     const std::vector<double> samples(channels[0].begin() + rate / 2, channels[0].end()); // 2 s

@@ -10,7 +10,7 @@ namespace {
 
 class SoundOfHits : public AttachedWorld {
 protected:
-    SoundOfHits() { (void)attachment.set(floor(), object); }
+    SoundOfHits() { give(floor(), object); }
 
     /// Events of a ball that strikes the floor, a camera.
     std::vector<CollisionEvent> hit(const HapticFixture& values) {
@@ -43,14 +43,13 @@ TEST_F(SoundOfHits, PairsHaveASoundOfTheirOwnInAnyOrder) {
     skate.surface = 3;
     ice.surface = 7;
     skate.voice = Voice::both; // a pair's sound is one, whatever the voice
-    (void)attachment.set(edge({-100.0F, -2.0F}, {100.0F, -2.0F}), ice);
+    give(edge({-100.0F, -2.0F}, {100.0F, -2.0F}), ice);
     EXPECT_EQ(
         attachment.setPair(
             7, 3,
             {.frequencyHz = 77.0, .decayPerSecond = 7.0, .overtones = {{{154.0, 9.0, 0.5}}}, .gain = 2.0}),
         "");
-    b2Fixture& onIce = ball(0.0F, -1.74F, 0.0F, -5.0F);
-    (void)attachment.set(onIce, skate);
+    b2Fixture& onIce = give(ball(0.0F, -1.74F, 0.0F, -5.0F), skate);
     const auto events = run(1);
     ASSERT_EQ(events.size(), 2U);
     EXPECT_EQ(events[0].frequencyHz, 77.0);
@@ -94,7 +93,7 @@ TEST_F(SoundOfHits, MutedAttachmentIsSilentAndRightAtOnceWhenItIsNotAnyMore) {
     settings.isMuted = true;
     attachment.configure(settings);
     for (int i = 0; i < 3; ++i)
-        (void)attachment.set(ball(0.0F, 0.26F + 0.51F * static_cast<float>(i), 0.0F, -2.0F, 0.0F), camera);
+        give(ball(0.0F, 0.26F + 0.51F * static_cast<float>(i), 0.0F, -2.0F, 0.0F), camera);
     EXPECT_TRUE(run(100).empty());
     settings.isMuted = false;
     attachment.configure(settings);
@@ -107,8 +106,7 @@ TEST_F(SoundOfHits, BudgetKeepsTheStrongestHitsOfAStep) {
     settings.hitsPerStep = 3;
     attachment.configure(settings);
     for (int i = 0; i < 8; ++i)
-        (void)attachment.set(
-            ball(static_cast<float>(i), 0.24F, 0.0F, -1.0F - static_cast<float>((5 * i) % 8)), camera);
+        give(ball(static_cast<float>(i), 0.24F, 0.0F, -1.0F - static_cast<float>((5 * i) % 8)), camera);
     const auto events = run(1);
     ASSERT_EQ(events.size(), 3U);
     // m v (1 + e) of 6, 7 and 8 m/s
@@ -125,58 +123,43 @@ TEST_F(SoundOfHits, BudgetKeepsTheStrongestHitsOfAStep) {
 class EventMakerWorld : public AttachedWorld {
 protected:
     std::vector<CollisionEvent> hit(Voice voice, const HapticFixture& other, double ownHz = 250.0) {
-        (void)attachment.set(edge({-1.0F, 0.0F}, {3.0F, 0.0F}), {ownHz, 20.0, true, 10.0, voice});
+        give(edge({-1.0F, 0.0F}, {3.0F, 0.0F}), {ownHz, 20.0, true, 10.0, voice});
         b2Fixture& falling = ball(2.0F, 0.5F, 0.0F, -5.0F);
-        if (other.frequencyHz > 0.0) (void)attachment.set(falling, other);
+        if (other.frequencyHz > 0.0) give(falling, other);
         return run(20);
     }
 };
 
-TEST_F(EventMakerWorld, OwnVoiceIsTheCamerasMaterial) {
-    const auto events = hit(Voice::own, object);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_EQ(events[0].frequencyHz, 250.0);
-    EXPECT_EQ(events[0].decayPerSecond, 20.0);
-}
+struct VoicedHit {
+    Voice voice;
+    HapticFixture other;
+    double ownHz;
+    std::vector<std::pair<double, double>> sounds; ///< Hz, decay per second
+};
+class Voices : public EventMakerWorld, public testing::WithParamInterface<VoicedHit> {};
 
-TEST_F(EventMakerWorld, OtherVoiceIsTheMaterialOfWhatStruck) {
-    const auto events = hit(Voice::other, object);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_EQ(events[0].frequencyHz, object.frequencyHz);
-    EXPECT_EQ(events[0].decayPerSecond, object.decayPerSecond);
-    EXPECT_EQ(events[0].source.fixture, 0);
-    EXPECT_EQ(events[0].source.massKg, 10.0); // the camera's: only the sound is the other's
+TEST_P(Voices, SayWhoseMaterialSounds) {
+    const auto& [voice, other, ownHz, sounds] = GetParam();
+    const auto events = hit(voice, other, ownHz);
+    ASSERT_EQ(events.size(), sounds.size());
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        EXPECT_EQ((std::pair{events[i].frequencyHz, events[i].decayPerSecond}), sounds[i]);
+        EXPECT_EQ(events[i].source.fixture, 0);
+        EXPECT_EQ(events[i].source.massKg, 10.0) << "the camera's: only the sound is the other's";
+        EXPECT_EQ(events[i].amplitude, events[0].amplitude) << "each has all of it";
+        EXPECT_GT(events[i].amplitude, 0.0);
+        EXPECT_EQ(events[i].timeNs, events[0].timeNs);
+        EXPECT_NEAR(events[i].x, 2.0, 1.0e-3) << "at the contact";
+    }
 }
-
-TEST_F(EventMakerWorld, OtherVoiceWithoutASoundIsOwn) {
-    const auto events = hit(Voice::other, {});
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_EQ(events[0].frequencyHz, 250.0);
-}
-
-TEST_F(EventMakerWorld, BothVoicesSoundWithTheFullAmplitudeEach) {
-    const auto events = hit(Voice::both, object);
-    ASSERT_EQ(events.size(), 2U);
-    EXPECT_EQ(events[0].frequencyHz, 250.0);
-    EXPECT_EQ(events[1].frequencyHz, object.frequencyHz);
-    EXPECT_EQ(events[0].amplitude, events[1].amplitude);
-    EXPECT_EQ(events[0].timeNs, events[1].timeNs);
-    EXPECT_GT(events[0].amplitude, 0.0);
-}
-
-TEST_F(EventMakerWorld, NothingSoundsWithoutAnyFrequency) {
-    EXPECT_TRUE(hit(Voice::own, object, 0.0).empty());
-}
-
-TEST_F(EventMakerWorld, OtherVoiceNeedsNoFrequencyOfTheCameras) {
-    EXPECT_EQ(hit(Voice::both, object, 0.0).size(), 1U);
-}
-
-TEST_F(EventMakerWorld, IsFeltAtTheContact) {
-    const auto events = hit(Voice::own, object);
-    ASSERT_EQ(events.size(), 1U);
-    EXPECT_NEAR(events[0].x, 2.0, 1.0e-3);
-}
+constexpr std::pair ofCamera{250.0, 20.0}, ofObject{120.0, 30.0};
+INSTANTIATE_TEST_SUITE_P(, Voices,
+                         testing::Values(VoicedHit{Voice::own, object, 250.0, {ofCamera}},
+                                         VoicedHit{Voice::other, object, 250.0, {ofObject}},
+                                         VoicedHit{Voice::other, {}, 250.0, {ofCamera}},
+                                         VoicedHit{Voice::both, object, 250.0, {ofCamera, ofObject}},
+                                         VoicedHit{Voice::own, object, 0.0, {}},
+                                         VoicedHit{Voice::both, object, 0.0, {ofObject}}));
 
 TEST_F(EventMakerWorld, IsFeltAtTheCentreOfTheCamerasFixtureOnDemand) {
     ImpactSettings settings = unity();
@@ -189,8 +172,8 @@ TEST_F(EventMakerWorld, IsFeltAtTheCentreOfTheCamerasFixtureOnDemand) {
 }
 
 TEST_F(EventMakerWorld, CameraWithoutAnyMassIsSilent) {
-    (void)attachment.set(floor(), {250.0, 20.0, true, 0.0, Voice::own}); // m_i + m_h = 0 in Eq. 5.4
-    (void)attachment.set(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
+    give(floor(), {250.0, 20.0, true, 0.0, Voice::own}); // m_i + m_h = 0 in Eq. 5.4
+    give(ball(0.0F, 0.5F, 0.0F, -5.0F), object);
     EXPECT_TRUE(run(20).empty());
 }
 

@@ -77,8 +77,7 @@ TEST_F(Turns, ADiscPassesItsGrainsAsItTurnsAgainstAFace) {
             shape.SetTwoSided({-5.0F, 0.0F}, {5.0F, 0.0F});
             shape.m_radius = 0.0F;
             b2Fixture& floor = *world.CreateBody(&def)->CreateFixture(&shape, 0.0F);
-            b2Fixture& stands = disc(0.25F, {0.0F, 0.25F}, b2_dynamicBody);
-            (void)attachment.set(stands, ridged());
+            b2Fixture& stands = give(disc(0.25F, {0.0F, 0.25F}, b2_dynamicBody), ridged());
             const double grains =
                 grainsOf(*stands.GetBody(), {0.0F, 0.25F}, face, own, *floor.GetBody(), face, 0.0F);
             const double expected = 0.25 * std::abs(static_cast<double>(own - face)) * 0.5 / spacing;
@@ -95,7 +94,7 @@ TEST_F(Turns, TwoDiscsPassTheirGrainsEachByItsOwnTurn) {
             for (const float own : {-1.5F, -1.0F, 0.0F, 1.0F, 1.5F}) {
                 b2Fixture& lower = disc(0.5F, {0.0F, 0.0F}, b2_kinematicBody);
                 b2Fixture& upper = disc(0.25F, {0.0F, 0.749F}, b2_dynamicBody);
-                (void)attachment.set(isUpperRough ? upper : lower, ridged());
+                give(isUpperRough ? upper : lower, ridged());
                 const double grains =
                     isUpperRough
                         ? grainsOf(*upper.GetBody(), {0.0F, 0.749F}, line, own, *lower.GetBody(), 0.3F, 0.5F)
@@ -115,7 +114,7 @@ protected:
     std::pair<double, double> strongest(float before, float after) {
         b2Fixture& plane = floor();
         plane.SetFriction(0.0F);
-        (void)attachment.set(plane, ridged());
+        give(plane, ridged());
         b2Fixture& slides = ball(0.0F, 0.25F, 0.5F, 0.0F, 0.0F);
         world.SetGravity({0.0F, -before});
         run(10);

@@ -20,6 +20,23 @@ struct ListSource {
     }
 };
 
+/// Events and controls, each in time order, as a session gives them.
+struct Session {
+    std::vector<CollisionEvent> events;
+    std::vector<RenderControl> controls{};
+    std::size_t nextEvent = 0, nextControl = 0;
+    bool pop(CollisionEvent& event) noexcept { return popOf(events, nextEvent, event); }
+    bool pop(RenderControl& control) noexcept { return popOf(controls, nextControl, control); }
+
+private:
+    template <class T>
+    static bool popOf(const std::vector<T>& all, std::size_t& next, T& one) noexcept {
+        if (next == all.size()) return false;
+        one = all[next++];
+        return true;
+    }
+};
+
 inline EnchanterLayout gridLayout(int columns, int rows) {
     EnchanterLayout layout{1.0, 1.0, columns * rows, {}};
     for (int j = 0; j < layout.count; ++j)
@@ -28,27 +45,34 @@ inline EnchanterLayout gridLayout(int columns, int rows) {
     return layout;
 }
 
+/// The next `frames` of a renderer that is prepared; block sizes are taken from `blocks` in turn.
+template <class Source>
+Channels renderBlocks(HapticRenderer& renderer, Source& source, int channels, int frames,
+                      const std::vector<int>& blocks = {256}) {
+    Channels all(static_cast<std::size_t>(channels), std::vector<float>(static_cast<std::size_t>(frames)));
+    for (int done = 0, turn = 0; done < frames; ++turn) {
+        const int block = std::min(blocks[static_cast<std::size_t>(turn) % blocks.size()], frames - done);
+        std::vector<float*> at;
+        for (auto& channel : all) at.push_back(channel.data() + done);
+        renderer.render(source, at.data(), block);
+        done += block;
+    }
+    return all;
+}
+
 struct Rendered {
     Channels channels;
     RenderStatus status;
 };
 
-/// Renders `frames` without the limiter's latency; block sizes are taken from `blocks` in turn.
+/// `frames` without the limiter's latency.
 inline Rendered renderEvents(const std::vector<CollisionEvent>& events, const RendererSettings& settings,
                              int frames, const std::vector<int>& blocks = {256}) {
     auto renderer = std::make_unique<HapticRenderer>();
     renderer->prepare(settings);
-    const int latency = renderer->latencyFrames(), total = frames + latency;
-    Channels all(static_cast<std::size_t>(settings.channels),
-                 std::vector<float>(static_cast<std::size_t>(total)));
+    const int latency = renderer->latencyFrames();
     ListSource source{events};
-    for (int done = 0, turn = 0; done < total; ++turn) {
-        const int block = std::min(blocks[static_cast<std::size_t>(turn) % blocks.size()], total - done);
-        std::vector<float*> at;
-        for (auto& channel : all) at.push_back(channel.data() + done);
-        renderer->render(source, at.data(), block);
-        done += block;
-    }
+    Channels all = renderBlocks(*renderer, source, settings.channels, frames + latency, blocks);
     for (auto& channel : all) channel.erase(channel.begin(), channel.begin() + latency);
     return {std::move(all), renderer->status()};
 }
