@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TinyUSB's callbacks. It calls all of them from pollUsb, so from the main loop.
+// TinyUSB's callbacks, which it calls from pollUsb, so from the main loop; and what TinyUSB 0.18 would not
+// survive, put right before it sees it: the linker puts those functions before TinyUSB's (--wrap).
 #include "Usb.h"
 #include "Board.h"
 #include "Console.h"
@@ -9,7 +10,10 @@
 #include "pico/platform.h"
 #include "pico/unique_id.h"
 #include "tusb.h"
+#include <cstdint>
 #include <cstring>
+
+#include "device/dcd.h" // behind tusb.h, which it needs
 
 namespace physvib::pico {
 namespace {
@@ -26,7 +30,8 @@ Feedback feedback;
 MissingPackets missing;
 Console console;
 std::uint32_t wrongSizes = 0, restarts = 0;
-bool isStreaming = false; // alternate setting 1 is selected
+bool isStreaming = false;  // alternate setting 1 is selected
+FeedbackForm feedbackForm; // is asked by the interrupt of USB, too
 char serialNumber[2 * PICO_UNIQUE_BOARD_ID_SIZE_BYTES + 1];
 
 // A restart by the watchdog lifts neither silence nor a volume that was turned down: they are in its scratch
@@ -99,8 +104,6 @@ void answerConsole() noexcept {
 }
 
 } // namespace
-
-FeedbackForm feedbackForm;
 
 void startUsb(Player<boardChannels>& to, std::uint32_t watchdogRestarts) noexcept {
     player = &to;
@@ -199,6 +202,36 @@ bool tud_audio_rx_done_post_read_cb(std::uint8_t, std::uint16_t bytes, std::uint
     tud_audio_n_fb_set(0, feedback.next(player->buffer.level(), FrameBuffer<boardChannels>::targetFrames,
                                         player->isPlaying()));
     return true;
+}
+
+std::uint16_t __real_tu_fifo_write_n(tu_fifo_t* fifo, void const* data, std::uint16_t bytes);
+
+/// A packet of no bytes is no failure: TinyUSB takes the 0 for one, and never arms the stream's endpoint
+/// again. Main loop.
+std::uint16_t __wrap_tu_fifo_write_n(tu_fifo_t* fifo, void const* data, std::uint16_t bytes) {
+    return bytes == 0 ? 1 : __real_tu_fifo_write_n(fifo, data, bytes);
+}
+
+void __real_dcd_event_handler(dcd_event_t const* event, bool isInterrupt);
+
+/// Refuses standard requests whose direction contradicts them: asked for a descriptor by a request that sends
+/// data, TinyUSB 0.18 writes that data over the descriptor. Interrupt of USB, and main loop.
+void __wrap_dcd_event_handler(dcd_event_t const* event, bool isInterrupt) {
+    if (event->event_id == DCD_EVENT_BUS_RESET) feedbackForm.reset();
+    if (event->event_id != DCD_EVENT_SETUP_RECEIVED) return __real_dcd_event_handler(event, isInterrupt);
+    dcd_event_t checked = *event;
+    auto& request = checked.setup_received;
+    if (request.bmRequestType_bit.type == TUSB_REQ_TYPE_STANDARD) {
+        const bool answers =
+            request.bRequest == TUSB_REQ_GET_STATUS || request.bRequest == TUSB_REQ_GET_DESCRIPTOR ||
+            request.bRequest == TUSB_REQ_GET_CONFIGURATION || request.bRequest == TUSB_REQ_GET_INTERFACE;
+        constexpr std::uint8_t unknown = 0xff; // which TinyUSB refuses
+        if (request.bRequest == TUSB_REQ_GET_DESCRIPTOR)
+            feedbackForm.asks(static_cast<std::uint8_t>(request.wValue >> 8));
+        const bool isIn = request.bmRequestType_bit.direction == TUSB_DIR_IN;
+        if (answers ? !isIn : isIn || request.wLength > 0) request.bRequest = unknown;
+    }
+    __real_dcd_event_handler(&checked, isInterrupt);
 }
 
 } // extern "C"

@@ -2,12 +2,8 @@
 // The board as a USB device: packets to the player, volume, and a serial port that answers in text.
 #pragma once
 #include "Board.h"
-#include "Signal/Descriptors.h"
 
 namespace physvib::pico {
-
-/// Told what the host asks for.
-extern FeedbackForm feedbackForm;
 
 /// Main loop, once.
 void startUsb(Player<boardChannels>& player, std::uint32_t watchdogRestarts) noexcept;

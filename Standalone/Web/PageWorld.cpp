@@ -33,226 +33,18 @@
 #include <vector>
 
 namespace physvib {
+namespace {
 
-// File that a page opens: a scene, an event list or a clip, selected by its name.
+// File that a page opens: a scene, an event list or a clip, selected by its name. MPEG formats are rejected
+// with a hint, to keep the page small.
 
 /// A world and the events played in it: none for a scene, its events for a list, and one event that stands
 /// for the samples of a clip.
 struct PageFile {
-
     Scene scene;
     std::vector<CollisionEvent> strikes; ///< sorted by time
     std::vector<float> samples;          ///< at the renderer's rate
 };
-
-/// `name` ends in .csv, .haptic or .ahap; otherwise it is a scene. A list without a field gets one of the
-/// given size, m. A clip plays in the centre of all actuators, as in `physvib render`.
-Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings,
-                              Vector fieldMetres, int sampleRateHz);
-
-/// The output equals the rendered file, delayed by outputLatencyFrames(). One thread has all roles of
-/// Live/Session/Session.h, and steps the world in the block that needs it.
-class PageWorld {
-public:
-    static constexpr int stepsPerSecond = 100;
-    static constexpr int fingers = 10; ///< maximum number of bodies held at once
-
-    /// Throws the exceptions of Simulation, or std::invalid_argument for a sample rate or number of outputs
-    /// that cannot be rendered.
-    PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int outputs);
-
-    /// The next frames, channel by channel.
-    const float* render(int frames);
-    std::int64_t outputLatencyFrames() const noexcept { return law_.outputLatencyFrames(); }
-
-    /// x, y, angle and presence (1 or 0) of each body of cast(), consecutively.
-    const std::vector<float>& poses();
-    const std::vector<BodyDescription>& cast() const noexcept { return cast_; }
-    const Scene& scene() const noexcept { return simulation_.scene(); }
-
-    /// The next impact played since the last call, and its time in seconds of the output; false if there is
-    /// none. Clips are not reported.
-    bool takeHit(CollisionEvent& hit, double& atSeconds);
-
-    void act(const Action& action); ///< applies now; fault() has its error
-    void steer(int way);
-    bool isPlayed() const noexcept { return player_.isThere(); }
-    const std::string& fault() const noexcept { return fault_; } ///< of the last input; empty: none
-
-    void grip(int finger, std::size_t body, Vector toMetres); ///< pulls the body there until letGo()
-    void letGo(int finger);
-
-    /// At most as many actuators as outputs; placed() applies changes.
-    EnchanterLayout& layout() noexcept { return layout_; }
-    /// Index in panningLaws; any other value: PanningLaw::automatic.
-    void placed(int law);
-
-    bool pop(CollisionEvent& event) noexcept { return take(events_, event); } // for the renderer, as the next
-    bool pop(RenderControl& change) noexcept { return controls_.pop(change); }
-    void done(const RenderControl& change) noexcept { controls_.done(change); }
-
-private:
-    struct Hand {
-        std::size_t body;
-        Vector to;
-    };
-    template <class T>
-    static bool take(std::deque<T>& from, T& one) noexcept {
-        if (from.empty()) return false;
-        one = from.front();
-        from.pop_front();
-        return true;
-    }
-    PhantomPanner panner() const noexcept;
-    // Frame 0 of the renderer.
-    std::int64_t firstFrame() const noexcept { return law_.outputLatencyFrames() - law_.limiterFrames; }
-    std::int64_t nsOf(std::int64_t frame) const noexcept;
-    void pull(const Hand& hand);
-    void stepTo(std::int64_t frame);
-
-    const PageFile file_;
-    RecordedContact clip_;   // its samples
-    std::size_t struck_ = 0; // of the file's strikes
-    Simulation simulation_;
-    InputCheck check_;
-    ScenePlayer player_;
-    std::vector<BodyDescription> cast_;
-    Vector fieldMetres_;
-    ClockLaw law_;
-    EnchanterLayout layout_;
-    std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
-    std::vector<CollisionEvent> made_;
-    std::deque<CollisionEvent> events_;
-    ControlQueue<256> controls_;
-    std::vector<float> samples_, poses_;
-    std::array<std::optional<Hand>, fingers> hands_;
-    PanningLaw panningLaw_ = PanningLaw::automatic;
-    std::string fault_;
-    std::size_t outputs_;
-    std::int64_t done_ = 0; // in frames
-};
-
-namespace {
-
-constexpr double pullPerSecond = 12.0, fastestPull = 12.0; // share of the remaining distance; m/s
-
-} // namespace
-
-PageWorld::PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int outputs)
-    : file_{std::move(file)}
-    , clip_{clipFrequencyHz, file_.samples, soundOfClip(0)}
-    , simulation_{file_.scene, seed, stepsPerSecond}
-    , check_{file_.scene, InputCheck::endless}
-    , player_{file_.scene}
-    , cast_{sceneCast(file_.scene)}
-    , fieldMetres_{file_.scene.fieldWidthMetres, file_.scene.fieldHeightMetres}
-    , law_{.sampleRateHz = sampleRateHz, .blockFrames = 0, .stepsPerSecond = stepsPerSecond}
-    , outputs_{static_cast<std::size_t>(outputs)} {
-    layoutPreset("phone4", layout_);
-    if (!renderer_->prepare({.sampleRateHz = sampleRateHz,
-                             .channels = outputs,
-                             .panner = panner(),
-                             .instructions = InstructionSet::scalar}))
-        throw std::invalid_argument("sound: expected 5000 to 192000 Hz and 4 to 64 outputs");
-    law_.limiterFrames = renderer_->latencyFrames();
-    if (file_.samples.empty()) return;
-    controls_.push({.kind = RenderControl::Kind::recordings, .recordings = {{&clip_, 1}, false}});
-}
-
-PhantomPanner PageWorld::panner() const noexcept {
-    return {layout_, panningLaw_, 1.0, fieldMetres_.x, fieldMetres_.y};
-}
-
-std::int64_t PageWorld::nsOf(std::int64_t frame) const noexcept {
-    return static_cast<std::int64_t>(static_cast<double>(frame) * 1e9 / law_.sampleRateHz);
-}
-
-void PageWorld::act(const Action& action) {
-    if (fault_ = check_.take(action); fault_.empty())
-        simulation_.addInput(static_cast<double>(simulation_.timeNs()) * 1e-9, action);
-}
-
-void PageWorld::steer(int way) {
-    for (const Action& action : player_.steer(way)) act(action);
-}
-
-void PageWorld::grip(int finger, std::size_t body, Vector toMetres) {
-    if (finger < 0 || finger >= fingers || body >= cast_.size()) return;
-    hands_[static_cast<std::size_t>(finger)] = Hand{body, toMetres};
-}
-
-// A kinematic body would keep its velocity.
-void PageWorld::letGo(int finger) {
-    if (finger < 0 || finger >= fingers) return;
-    const auto held = std::exchange(hands_[static_cast<std::size_t>(finger)], {});
-    if (held && cast_[held->body].type == BodyType::kinematicBody)
-        act(VelocityAction{cast_[held->body].name, {}});
-}
-
-void PageWorld::pull(const Hand& hand) {
-    const BodyPose at = simulation_.pose(hand.body);
-    if (!at.isPresent) return;
-    const Vector way{pullPerSecond * (hand.to.x - at.xMetres), pullPerSecond * (hand.to.y - at.yMetres)};
-    const double share = std::min(1.0, fastestPull / std::max(1e-9, std::hypot(way.x, way.y)));
-    act(VelocityAction{cast_[hand.body].name, {share * way.x, share * way.y}});
-}
-
-void PageWorld::placed(int law) {
-    const auto index = static_cast<std::size_t>(law); // -1 becomes larger than any index
-    panningLaw_ = index < panningLaws.size() ? panningLaws[index].law : PanningLaw::automatic;
-    const std::int64_t timeNs = nsOf(std::max<std::int64_t>(0, done_ - firstFrame()));
-    const PhantomPanner now = panner();
-    controls_.push({.timeNs = timeNs, .kind = RenderControl::Kind::panner, .panner = &now});
-}
-
-void PageWorld::stepTo(std::int64_t frame) {
-    while (simulation_.timeNs() < nsOf(frame)) {
-        for (const auto& hand : hands_)
-            if (hand) pull(*hand);
-        simulation_.step(made_);
-        simulation_.forgetDone();
-    }
-    events_.insert(events_.end(), made_.begin(), made_.end());
-    made_.clear();
-    for (; struck_ < file_.strikes.size() && file_.strikes[struck_].timeNs < simulation_.timeNs(); ++struck_)
-        events_.push_back(file_.strikes[struck_]);
-}
-
-const float* PageWorld::render(int frames) {
-    stepTo(done_ + frames);
-    samples_.resize(outputs_ * static_cast<std::size_t>(frames));
-    const int silent = static_cast<int>(std::clamp<std::int64_t>(firstFrame() - done_, 0, frames));
-    std::array<float*, limits::maxEnchanters> out{};
-    for (std::size_t j = 0; j < outputs_; ++j)
-        out[j] = std::fill_n(samples_.data() + j * static_cast<std::size_t>(frames), silent, 0.0f);
-    if (silent < frames) renderer_->render(*this, out.data(), frames - silent);
-    done_ += frames;
-    return samples_.data();
-}
-
-const std::vector<float>& PageWorld::poses() {
-    poses_.clear();
-    for (std::size_t i = 0; i < cast_.size(); ++i) {
-        const BodyPose at = simulation_.pose(i);
-        for (const double value : {at.xMetres, at.yMetres, at.angleRadians, at.isPresent ? 1.0 : 0.0})
-            poses_.push_back(static_cast<float>(value));
-    }
-    return poses_;
-}
-
-bool PageWorld::takeHit(CollisionEvent& hit, double& atSeconds) {
-    PlayedEvent played;
-    if (!renderer_->played().pop(played) || !file_.samples.empty()) return false;
-    hit = played.event;
-    atSeconds = static_cast<double>(played.frame + law_.outputLatencyFrames()) / law_.sampleRateHz;
-    return true;
-}
-
-// Reads files by the extension of their name. MPEG formats are rejected with a hint, to keep the page small.
-
-namespace {
-
-Failure noRoom() { return {"expected a file .haptic or .ahap; physvib export makes one of MPEG's"}; }
 
 Scene emptyScene(std::string_view name, Vector fieldMetres) {
     Scene scene;
@@ -283,13 +75,8 @@ Result<PageFile> readClipFile(std::string_view name, std::string_view text, Clip
     return PageFile{emptyScene(name, field), {strike}, std::move(sound.channels.front())};
 }
 
-} // namespace
-
-// Stubs that replace the readers and writers of MPEG formats.
-Result<Clip> readHjif(std::string_view, std::string_view) { return noRoom(); }
-std::string hjifText(const Clip&) { return {}; }
-std::vector<std::string> hjifLosses(const Clip&, const std::set<double>&) { return {}; }
-
+/// `name` ends in .csv, .haptic or .ahap; otherwise it is a scene. A list without a field gets one of the
+/// given size, m. A clip plays in the centre of all actuators, as in `physvib render`.
 Result<PageFile> readPageFile(std::string_view name, std::string_view text, const SceneSettings& settings,
                               Vector fieldMetres, int sampleRateHz) {
     if (const auto format = clipFormatOf(name)) return readClipFile(name, text, *format, sampleRateHz);
@@ -298,6 +85,184 @@ Result<PageFile> readPageFile(std::string_view name, std::string_view text, cons
     if (!read) return Failure{std::move(read.error)};
     return PageFile{std::move(read.value), {}, {}};
 }
+
+/// The output equals the rendered file, delayed by outputLatencyFrames(). One thread has all roles of
+/// Live/Session/Session.h, and steps the world in the block that needs it.
+class PageWorld {
+public:
+    static constexpr int stepsPerSecond = 100;
+    static constexpr int fingers = 10; ///< maximum number of bodies held at once
+
+    /// Throws the exceptions of Simulation, or std::invalid_argument for a sample rate or number of outputs
+    /// that cannot be rendered.
+    PageWorld(PageFile file, std::uint32_t seed, int sampleRateHz, int outputs)
+        : file_{std::move(file)}
+        , clip_{clipFrequencyHz, file_.samples, soundOfClip(0)}
+        , simulation_{file_.scene, seed, stepsPerSecond}
+        , check_{file_.scene, InputCheck::endless}
+        , player_{file_.scene}
+        , cast_{sceneCast(file_.scene)}
+        , fieldMetres_{file_.scene.fieldWidthMetres, file_.scene.fieldHeightMetres}
+        , law_{.sampleRateHz = sampleRateHz, .blockFrames = 0, .stepsPerSecond = stepsPerSecond}
+        , outputs_{static_cast<std::size_t>(outputs)} {
+        layoutPreset("phone4", layout_);
+        if (!renderer_->prepare({.sampleRateHz = sampleRateHz,
+                                 .channels = outputs,
+                                 .panner = panner(),
+                                 .instructions = InstructionSet::scalar}))
+            throw std::invalid_argument("sound: expected 5000 to 192000 Hz and 4 to 64 outputs");
+        law_.limiterFrames = renderer_->latencyFrames();
+        if (file_.samples.empty()) return;
+        controls_.push({.kind = RenderControl::Kind::recordings, .recordings = {{&clip_, 1}, false}});
+    }
+
+    /// The next frames, channel by channel.
+    const float* render(int frames) {
+        stepTo(done_ + frames);
+        samples_.resize(outputs_ * static_cast<std::size_t>(frames));
+        const int silent = static_cast<int>(std::clamp<std::int64_t>(firstFrame() - done_, 0, frames));
+        std::array<float*, limits::maxEnchanters> out{};
+        for (std::size_t j = 0; j < outputs_; ++j)
+            out[j] = std::fill_n(samples_.data() + j * static_cast<std::size_t>(frames), silent, 0.0f);
+        if (silent < frames) renderer_->render(*this, out.data(), frames - silent);
+        done_ += frames;
+        return samples_.data();
+    }
+    std::int64_t outputLatencyFrames() const noexcept { return law_.outputLatencyFrames(); }
+
+    /// x, y, angle and presence (1 or 0) of each body of cast(), consecutively.
+    const std::vector<float>& poses() {
+        poses_.clear();
+        for (std::size_t i = 0; i < cast_.size(); ++i) {
+            const BodyPose at = simulation_.pose(i);
+            for (const double value : {at.xMetres, at.yMetres, at.angleRadians, at.isPresent ? 1.0 : 0.0})
+                poses_.push_back(static_cast<float>(value));
+        }
+        return poses_;
+    }
+    const std::vector<BodyDescription>& cast() const noexcept { return cast_; }
+    const Scene& scene() const noexcept { return simulation_.scene(); }
+
+    /// The next impact played since the last call, and its time in seconds of the output; false if there is
+    /// none. Clips are not reported.
+    bool takeHit(CollisionEvent& hit, double& atSeconds) {
+        PlayedEvent played;
+        if (!renderer_->played().pop(played) || !file_.samples.empty()) return false;
+        hit = played.event;
+        atSeconds = static_cast<double>(played.frame + law_.outputLatencyFrames()) / law_.sampleRateHz;
+        return true;
+    }
+
+    /// Applies now; fault() has its error.
+    void act(const Action& action) {
+        if (fault_ = check_.take(action); fault_.empty())
+            simulation_.addInput(static_cast<double>(simulation_.timeNs()) * 1e-9, action);
+    }
+    void steer(int way) {
+        for (const Action& action : player_.steer(way)) act(action);
+    }
+    bool isPlayed() const noexcept { return player_.isThere(); }
+    const std::string& fault() const noexcept { return fault_; } ///< of the last input; empty: none
+
+    /// Pulls the body there until letGo().
+    void grip(int finger, std::size_t body, Vector toMetres) {
+        if (finger < 0 || finger >= fingers || body >= cast_.size()) return;
+        hands_[static_cast<std::size_t>(finger)] = Hand{body, toMetres};
+    }
+    // A kinematic body would keep its velocity.
+    void letGo(int finger) {
+        if (finger < 0 || finger >= fingers) return;
+        const auto held = std::exchange(hands_[static_cast<std::size_t>(finger)], {});
+        if (held && cast_[held->body].type == BodyType::kinematicBody)
+            act(VelocityAction{cast_[held->body].name, {}});
+    }
+
+    /// At most as many actuators as outputs; placed() applies changes.
+    EnchanterLayout& layout() noexcept { return layout_; }
+    /// Index in panningLaws; any other value: PanningLaw::automatic.
+    void placed(int law) {
+        const auto index = static_cast<std::size_t>(law); // -1 becomes larger than any index
+        panningLaw_ = index < panningLaws.size() ? panningLaws[index].law : PanningLaw::automatic;
+        const std::int64_t timeNs = nsOf(std::max<std::int64_t>(0, done_ - firstFrame()));
+        const PhantomPanner now = panner();
+        controls_.push({.timeNs = timeNs, .kind = RenderControl::Kind::panner, .panner = &now});
+    }
+
+    bool pop(CollisionEvent& event) noexcept { // for the renderer, as the next
+        if (events_.empty()) return false;
+        event = events_.front();
+        events_.pop_front();
+        return true;
+    }
+    bool pop(RenderControl& change) noexcept { return controls_.pop(change); }
+    void done(const RenderControl& change) noexcept { controls_.done(change); }
+
+private:
+    static constexpr double pullPerSecond = 12.0, fastestPull = 12.0; // share of the remaining distance; m/s
+
+    struct Hand {
+        std::size_t body;
+        Vector to;
+    };
+    PhantomPanner panner() const noexcept {
+        return {layout_, panningLaw_, 1.0, fieldMetres_.x, fieldMetres_.y};
+    }
+    // Frame 0 of the renderer.
+    std::int64_t firstFrame() const noexcept { return law_.outputLatencyFrames() - law_.limiterFrames; }
+    std::int64_t nsOf(std::int64_t frame) const noexcept {
+        return static_cast<std::int64_t>(static_cast<double>(frame) * 1e9 / law_.sampleRateHz);
+    }
+    void pull(const Hand& hand) {
+        const BodyPose at = simulation_.pose(hand.body);
+        if (!at.isPresent) return;
+        const Vector way{pullPerSecond * (hand.to.x - at.xMetres), pullPerSecond * (hand.to.y - at.yMetres)};
+        const double share = std::min(1.0, fastestPull / std::max(1e-9, std::hypot(way.x, way.y)));
+        act(VelocityAction{cast_[hand.body].name, {share * way.x, share * way.y}});
+    }
+    void stepTo(std::int64_t frame) {
+        while (simulation_.timeNs() < nsOf(frame)) {
+            for (const auto& hand : hands_)
+                if (hand) pull(*hand);
+            simulation_.step(made_);
+            simulation_.forgetDone();
+        }
+        events_.insert(events_.end(), made_.begin(), made_.end());
+        made_.clear();
+        for (; struck_ < file_.strikes.size() && file_.strikes[struck_].timeNs < simulation_.timeNs();
+             ++struck_)
+            events_.push_back(file_.strikes[struck_]);
+    }
+
+    const PageFile file_;
+    RecordedContact clip_;   // its samples
+    std::size_t struck_ = 0; // of the file's strikes
+    Simulation simulation_;
+    InputCheck check_;
+    ScenePlayer player_;
+    std::vector<BodyDescription> cast_;
+    Vector fieldMetres_;
+    ClockLaw law_;
+    EnchanterLayout layout_;
+    std::unique_ptr<HapticRenderer> renderer_ = std::make_unique<HapticRenderer>();
+    std::vector<CollisionEvent> made_;
+    std::deque<CollisionEvent> events_;
+    ControlQueue<256> controls_;
+    std::vector<float> samples_, poses_;
+    std::array<std::optional<Hand>, fingers> hands_;
+    PanningLaw panningLaw_ = PanningLaw::automatic;
+    std::string fault_;
+    std::size_t outputs_;
+    std::int64_t done_ = 0; // in frames
+};
+
+} // namespace
+
+// Stubs that replace the readers and writers of MPEG formats.
+Result<Clip> readHjif(std::string_view, std::string_view) {
+    return Failure{"expected a file .haptic or .ahap; physvib export makes one of MPEG's"};
+}
+std::string hjifText(const Clip&) { return {}; }
+std::vector<std::string> hjifLosses(const Clip&, const std::set<double>&) { return {}; }
 
 } // namespace physvib
 

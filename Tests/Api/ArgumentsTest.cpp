@@ -29,35 +29,37 @@ physvib_renderer_settings plainSettings() {
 }
 
 physvib_event tone(physvib_int64 timeNs, double x, double y) {
-    auto event = test::sized<physvib_event>();
-    event.time_ns = timeNs;
+    physvib_event event = test::hitAt(timeNs);
     event.frequency_hz = 150.0;
     event.decay_per_s = 1.0;
-    event.amplitude = 0.5;
     event.x_m = x;
     event.y_m = y;
-    event.fixture = event.other = -1;
     return event;
 }
 
-/// A tone from the middle of the field, from 0 s on, and another at 0.3 s; `act` comes first.
-Channels played(const std::function<void(physvib_renderer)>& act, bool strikes = true) {
-    const physvib_renderer_settings settings = plainSettings();
-    physvib_renderer renderer = nullptr;
-    EXPECT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_OK) << physvib_error();
+/// What leaves such a renderer after `act`.
+Channels pulled(const physvib_renderer_settings& settings, const std::function<void(physvib_renderer)>& act) {
+    const physvib_renderer renderer = test::rendererOf(settings);
     act(renderer);
-    if (strikes)
-        for (const physvib_int64 at : {0 * ms, 300 * ms}) {
-            const physvib_event event =
-                tone(at, 0.4 * settings.field_width_m, 0.55 * settings.field_height_m);
-            EXPECT_EQ(physvib_renderer_strike(renderer, &event), PHYSVIB_OK) << physvib_error();
-        }
     Channels all;
     std::array<float*, channels> at{};
     for (std::size_t j = 0; j < channels; ++j) all[j].resize(frames), at[j] = all[j].data();
     EXPECT_EQ(physvib_renderer_pull(renderer, at.data(), channels, frames), PHYSVIB_OK);
     EXPECT_EQ(physvib_renderer_free(renderer), PHYSVIB_OK);
     return all;
+}
+
+/// A tone from the middle of the field, from 0 s on, and another at 0.3 s; `act` comes first.
+Channels played(const std::function<void(physvib_renderer)>& act) {
+    const physvib_renderer_settings settings = plainSettings();
+    return pulled(settings, [&](physvib_renderer renderer) {
+        act(renderer);
+        for (const physvib_int64 at : {0 * ms, 300 * ms}) {
+            const physvib_event event =
+                tone(at, 0.4 * settings.field_width_m, 0.55 * settings.field_height_m);
+            EXPECT_EQ(physvib_renderer_strike(renderer, &event), PHYSVIB_OK) << physvib_error();
+        }
+    });
 }
 
 TEST(Arguments, GainsMutesAndLevelsActFromTheirTimeOnTheirChannelByTheirFactor) {
@@ -121,36 +123,27 @@ TEST(Arguments, SilencesAndLayoutsActBetweenTheirTimes) {
 }
 
 TEST(Arguments, AFieldThatIsNotGivenIsTheLayouts) {
-    const auto pulled = [](bool isGiven) {
+    const auto of = [](bool isGiven) {
         physvib_renderer_settings settings = plainSettings();
         settings.field_width_m = isGiven ? settings.layout.extent_width_m : 0.0;
         settings.field_height_m = isGiven ? settings.layout.extent_height_m : 0.0;
         EXPECT_NE(settings.layout.extent_width_m, settings.layout.extent_height_m);
-        physvib_renderer renderer = nullptr;
-        EXPECT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_OK) << physvib_error();
         const physvib_event event =
             tone(0, 0.3 * settings.layout.extent_width_m, 0.3 * settings.layout.extent_height_m);
-        EXPECT_EQ(physvib_renderer_strike(renderer, &event), PHYSVIB_OK) << physvib_error();
-        std::vector<float> all(channels * frames);
-        std::array<float*, channels> at{};
-        for (std::size_t j = 0; j < channels; ++j) at[j] = all.data() + j * frames;
-        EXPECT_EQ(physvib_renderer_pull(renderer, at.data(), channels, frames), PHYSVIB_OK);
-        EXPECT_EQ(physvib_renderer_free(renderer), PHYSVIB_OK);
-        return all;
+        return pulled(settings, [&](physvib_renderer renderer) {
+            EXPECT_EQ(physvib_renderer_strike(renderer, &event), PHYSVIB_OK) << physvib_error();
+        });
     };
-    EXPECT_EQ(pulled(false), pulled(true));
+    EXPECT_EQ(of(false), of(true));
 }
 
 TEST(Arguments, OfImpactsCountEachForItselfAlone) {
     const auto impact = [](double x, double y, double strength, const char* material) {
-        return played(
-            [=](physvib_renderer r) {
-                const int code = material == nullptr
-                                     ? physvib_renderer_impact(r, x, y, strength)
-                                     : physvib_renderer_impact_of(r, material, x, y, strength);
-                EXPECT_EQ(code, PHYSVIB_OK) << physvib_error();
-            },
-            false);
+        return pulled(plainSettings(), [=](physvib_renderer r) {
+            const int code = material == nullptr ? physvib_renderer_impact(r, x, y, strength)
+                                                 : physvib_renderer_impact_of(r, material, x, y, strength);
+            EXPECT_EQ(code, PHYSVIB_OK) << physvib_error();
+        });
     };
     const physvib_renderer_settings s = plainSettings();
     const double x = 0.25 * s.field_width_m, y = 0.25 * s.field_height_m;
@@ -177,9 +170,7 @@ struct Fall {
 };
 
 std::string heardOf(const Fall& fall) {
-    physvib_world world = nullptr;
-    auto settings = test::begun(physvib_world_settings_init);
-    EXPECT_EQ(physvib_world_create(&settings, &world), PHYSVIB_OK) << physvib_error();
+    const physvib_world world = test::worldOfABall();
     for (const int i : {0, 1}) {
         auto body = test::begun(physvib_body_init);
         body.frequency_hz = 100.0 + 50.0 * i;
@@ -196,12 +187,7 @@ std::string heardOf(const Fall& fall) {
     std::string words;
     const auto note = [&] {
         const physvib_int64 count = physvib_world_take(world, events.data(), 100, fall.atOnce);
-        for (physvib_int64 i = 0; i < count; ++i) {
-            const physvib_event& e = events[static_cast<std::size_t>(i)];
-            for (const double value : {static_cast<double>(e.time_ns), e.frequency_hz, e.decay_per_s,
-                                       e.amplitude, e.x_m, e.y_m, e.z_m, e.impulse_n_s})
-                words += std::to_string(value) + ' ';
-        }
+        for (physvib_int64 i = 0; i < count; ++i) words += test::wordsOf(events[static_cast<std::size_t>(i)]);
         words += ";" + std::to_string(physvib_world_time_ns(world));
     };
     for (int step = 0; step < 4; ++step) {
@@ -220,9 +206,7 @@ std::string heardOf(const Fall& fall) {
                       PHYSVIB_OK);
         }
         if (step > 0) {
-            auto contact = test::begun(physvib_contact_init);
-            contact.a = 0;
-            contact.b = 1;
+            physvib_contact contact = test::touching();
             contact.x_m = 0.25;
             contact.y_m = 0.05;
             contact.z_m = 0.03;
@@ -320,22 +304,11 @@ TEST(Arguments, OnlyWhatFitsIsToldAsSentToAPad) {
     int room = 0;
     while (physvib_pads_strike(pads, 0, &waits) == PHYSVIB_OK) ++room;
     EXPECT_EQ(room, 256);
-    physvib_world world = nullptr;
-    ASSERT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
-    for (const int i : {0, 1}) {
-        auto body = test::begun(physvib_body_init);
-        body.frequency_hz = 150.0, body.decay_per_s = 20.0;
-        body.is_camera = i, body.mass_kg = i;
-        ASSERT_EQ(physvib_world_set_body(world, i, &body), PHYSVIB_OK);
-    }
+    const physvib_world world = test::worldOfABall();
     const auto hits = [&] {
-        auto contact = test::begun(physvib_contact_init);
-        contact.a = 0, contact.b = 1, contact.impulse_n_s = 1.0;
-        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 0.0), PHYSVIB_OK);
-        EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK);
-        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
-        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 0.0), PHYSVIB_OK);
-        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+        const physvib_contact contact = test::touching(1.0);
+        EXPECT_EQ(test::step(world, &contact), PHYSVIB_OK);
+        test::step(world);
     };
     hits();
     EXPECT_EQ(physvib_pads_send(pads, 0, world, 500 * ms, 1), 0) << "there is no room";

@@ -20,24 +20,9 @@
 namespace physvib {
 namespace {
 
+using test::places, test::step, test::touching, test::worldOfABall;
+
 physvib_renderer_settings settings() { return test::begun(physvib_renderer_settings_init); }
-
-physvib_event strikeAt(physvib_int64 timeNs) {
-    auto event = test::begun(physvib_event_init);
-    event.time_ns = timeNs;
-    event.frequency_hz = 200.0;
-    event.decay_per_s = 30.0;
-    event.amplitude = 0.5;
-    return event;
-}
-
-/// Room for events that say their size.
-template <std::size_t Count>
-std::array<physvib_event, Count> places() {
-    std::array<physvib_event, Count> all{};
-    all.front().size = sizeof all.front();
-    return all;
-}
 
 physvib_renderer renderer() {
     const auto values = settings();
@@ -46,35 +31,9 @@ physvib_renderer renderer() {
     return made;
 }
 
-/// A floor and a ball of 2 kg that is a camera.
-physvib_world worldOfABall() {
-    physvib_world world = nullptr;
-    EXPECT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK) << physvib_error();
-    auto body = test::begun(physvib_body_init);
-    EXPECT_EQ(physvib_world_set_body(world, 0, &body), PHYSVIB_OK);
-    body.mass_kg = 2.0;
-    body.is_camera = 1;
-    body.frequency_hz = 200.0;
-    body.decay_per_s = 30.0;
-    EXPECT_EQ(physvib_world_set_body(world, 1, &body), PHYSVIB_OK);
-    return world;
-}
-
-/// The ball on the floor, and nothing else told yet.
-physvib_contact touching() {
-    auto contact = test::begun(physvib_contact_init);
-    contact.a = 0;
-    contact.b = 1;
-    return contact;
-}
-
 int land(physvib_world world, double impulse) {
-    physvib_contact contact = touching();
-    contact.impulse_n_s = impulse;
-    EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
-    const int result = physvib_world_touch(world, &contact);
-    EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
-    return result;
+    const physvib_contact contact = touching(impulse);
+    return step(world, &contact);
 }
 
 std::string temporary(const char* name) {
@@ -100,7 +59,7 @@ TEST(Calls, AHandleThatIsNoneOfOursIsAnErrorAndTellsOne) {
 TEST(Calls, WhatIsPulledIsWhatIsRendered) {
     constexpr int frames = 4800;
     const auto values = settings();
-    const std::vector<physvib_event> events{strikeAt(1'234'567), strikeAt(20'000'001)};
+    const std::vector<physvib_event> events{test::hitAt(1'234'567), test::hitAt(20'000'001)};
     std::vector<float> whole(4 * frames), pulled(4 * frames), interleaved(4 * frames);
     ASSERT_EQ(physvib_render(&values, events.data(), 2, frames, whole.data()), PHYSVIB_OK) << physvib_error();
     const physvib_renderer one = renderer(), two = renderer();
@@ -135,8 +94,7 @@ TEST(Calls, ALandingIsFeltByItsImpulse) {
     EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
     auto events = places<4>();
     EXPECT_EQ(physvib_world_take(world, events.data(), 4, 0), 0); // a step later
-    EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
-    EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    step(world);
     ASSERT_EQ(physvib_world_take(world, events.data(), 4, 0), 1);
     EXPECT_EQ(events[0].impulse_n_s, 6.0);
     EXPECT_EQ(events[0].fixture, 1);
@@ -166,16 +124,11 @@ TEST(Calls, WhatRollsOverGrainsIsFelt) {
     floor.grain_m = 0.002;
     floor.is_ridged = 1;
     EXPECT_EQ(physvib_world_set_body(world, 0, &floor), PHYSVIB_OK);
-    physvib_contact contact = touching();
-    contact.impulse_n_s = 0.2;
+    physvib_contact contact = touching(0.2);
     contact.approach_m_per_s = 0.0;
     contact.along_a_m_per_s = contact.along_b_m_per_s = 0.4;
-    for (int i = 0; i < 50; ++i) {
-        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
-        EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK);
-        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
-    }
-    EXPECT_NEAR(static_cast<double>(physvib_world_take(world, nullptr, 0, 1)), 0.0, 0.0);
+    for (int i = 0; i < 50; ++i) EXPECT_EQ(step(world, &contact), PHYSVIB_OK);
+    EXPECT_EQ(physvib_world_take(world, nullptr, 0, 1), 0);
     auto events = places<1000>();
     // 200 a second, from the second step on
     EXPECT_NEAR(static_cast<double>(physvib_world_take(world, events.data(), 1000, 1)), 98.0, 2.0);
@@ -187,8 +140,7 @@ TEST(Calls, WhatDoesNotFitWaits) {
     const physvib_world world = worldOfABall();
     for (int i = 0; i < 3; ++i) {
         EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
-        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
-        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+        step(world);
     }
     auto events = places<4>();
     EXPECT_EQ(physvib_world_take(world, events.data(), 2, 1), 2);
@@ -220,9 +172,7 @@ TEST(Calls, AnOlderProgramsContactHasNoPointOfItsOwn) {
     contact.point_id = -77;
     ASSERT_EQ(physvib_contact_init(&contact, older), PHYSVIB_OK);
     contact.a = 0, contact.b = 1, contact.impulse_n_s = 6.0;
-    ASSERT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
-    EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
-    EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    EXPECT_EQ(step(world, &contact), PHYSVIB_OK) << physvib_error();
     auto events = places<4>();
     EXPECT_EQ(physvib_world_take(world, events.data(), 4, 1), 1);
     physvib_world_free(world);
@@ -275,8 +225,7 @@ std::string explained(physvib_world world) {
 TEST(Calls, EveryReasonWhyNothingIsFeltIsCountedAndSaid) {
     const physvib_world world = worldOfABall();
     EXPECT_NE(explained(world).find("No step"), std::string::npos);
-    physvib_world_begin_step(world, 0.01, 9.81);
-    physvib_world_end_step(world);
+    step(world);
     EXPECT_NE(explained(world).find("No contact"), std::string::npos);
     EXPECT_EQ(land(world, 0.01), PHYSVIB_OK); // 5 mm/s
     EXPECT_EQ(countsOf(world).contacts, 1);
@@ -288,29 +237,25 @@ TEST(Calls, EveryReasonWhyNothingIsFeltIsCountedAndSaid) {
     muted.is_muted = 1;
     ASSERT_EQ(physvib_world_configure(world, &muted), PHYSVIB_OK);
     for (int i = 0; i < 2; ++i) {
-        physvib_world_begin_step(world, 0.01, 9.81);
-        physvib_world_end_step(world); // apart
+        step(world); // apart
         EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
     }
     EXPECT_EQ(countsOf(world).muted, 2);
     EXPECT_NE(explained(world).find("muted"), std::string::npos);
 
-    auto silent = test::begun(physvib_body_init);
-    silent.mass_kg = 2.0;
-    silent.is_camera = 1;
+    physvib_body silent = test::feltBall();
+    silent.frequency_hz = silent.decay_per_s = 0.0;
     ASSERT_EQ(physvib_world_set_body(world, 1, &silent), PHYSVIB_OK);
     ASSERT_EQ(physvib_world_configure(world, nullptr), PHYSVIB_OK);
     for (int i = 0; i < 3; ++i) {
-        physvib_world_begin_step(world, 0.01, 9.81);
-        physvib_world_end_step(world);
+        step(world);
         EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
     }
     EXPECT_EQ(countsOf(world).unplayable, 3);
     EXPECT_NE(explained(world).find("frequency"), std::string::npos);
     silent.is_camera = 0;
     ASSERT_EQ(physvib_world_set_body(world, 1, &silent), PHYSVIB_OK);
-    physvib_world_begin_step(world, 0.01, 9.81);
-    physvib_world_end_step(world);
+    step(world);
     EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
     EXPECT_EQ(countsOf(world).no_source, 1);
     EXPECT_NE(explained(world).find("is_camera"), std::string::npos);
@@ -405,15 +350,15 @@ TEST(Calls, WrongOrderIsOneAndNothingHappens) {
 }
 
 TEST(Calls, LawsAreThoseOfTheTable) {
-    const auto expect = [](int law, const char* name) { EXPECT_STREQ(physvib_law_name(law), name); };
-    expect(PHYSVIB_LAW_LINEAR, "linear");
-    expect(PHYSVIB_LAW_LOG, "log");
-    expect(PHYSVIB_LAW_LOG_OUTER, "log-outer");
-    expect(PHYSVIB_LAW_ENERGY, "energy");
-    expect(PHYSVIB_LAW_NEIGHBOURS, "neighbours");
-    expect(PHYSVIB_LAW_AUTO, "auto");
-    expect(PHYSVIB_LAW_DISTANCE, "distance");
-    expect(PHYSVIB_LAW_TRIANGLES, "triangles");
+    for (const auto& [law, name] : {std::pair{PHYSVIB_LAW_LINEAR, "linear"},
+                                    {PHYSVIB_LAW_LOG, "log"},
+                                    {PHYSVIB_LAW_LOG_OUTER, "log-outer"},
+                                    {PHYSVIB_LAW_ENERGY, "energy"},
+                                    {PHYSVIB_LAW_NEIGHBOURS, "neighbours"},
+                                    {PHYSVIB_LAW_AUTO, "auto"},
+                                    {PHYSVIB_LAW_DISTANCE, "distance"},
+                                    {PHYSVIB_LAW_TRIANGLES, "triangles"}})
+        EXPECT_STREQ(physvib_law_name(law), name);
     int count = 0;
     while (physvib_law_name(count) != nullptr) ++count;
     EXPECT_EQ(count, static_cast<int>(panningLaws.size()));
@@ -422,7 +367,7 @@ TEST(Calls, LawsAreThoseOfTheTable) {
 
 TEST(Calls, AListSaysItsField) {
     const std::string list = temporary("field.csv");
-    const physvib_event event = strikeAt(1);
+    const physvib_event event = test::hitAt(1);
     double width = 7.0, height = 7.0;
     const auto expect = [&](double wantedWidth, double wantedHeight) {
         EXPECT_EQ(width, wantedWidth);
@@ -453,7 +398,7 @@ TEST(Calls, AListSaysItsField) {
 TEST(Calls, ListsLayoutsAndSoundsComeBack) {
     const std::string list = temporary("list.csv"), layoutPath = temporary("layout.json"),
                       sound = temporary("sound.wav");
-    const std::vector<physvib_event> events{strikeAt(1), strikeAt(1'000'000'007)};
+    const std::vector<physvib_event> events{test::hitAt(1), test::hitAt(1'000'000'007)};
     ASSERT_EQ(physvib_events_save(list.c_str(), events.data(), 2), PHYSVIB_OK) << physvib_error();
     auto read = places<2>();
     EXPECT_EQ(physvib_events_load(list.c_str(), nullptr, 0), 2);
@@ -463,7 +408,8 @@ TEST(Calls, ListsLayoutsAndSoundsComeBack) {
     EXPECT_EQ(physvib_events_save(list.c_str(), swapped.data(), 2), PHYSVIB_ERROR_ARGUMENT);
 
     auto layout = test::sized<physvib_layout>(), again = test::sized<physvib_layout>();
-    ASSERT_EQ(physvib_layout_preset("ring3", &layout), PHYSVIB_OK);
+    ASSERT_EQ(physvib_layout_preset("vest16", &layout), PHYSVIB_OK); // with depths and parts
+    layout.part[3] = physvib_part("left elbow");
     EXPECT_EQ(physvib_layout_preset("ring5", &again), PHYSVIB_ERROR_ARGUMENT);
     ASSERT_EQ(physvib_layout_save(layoutPath.c_str(), "mine", &layout), PHYSVIB_OK) << physvib_error();
     ASSERT_EQ(physvib_layout_load(layoutPath.c_str(), &again), PHYSVIB_OK) << physvib_error();
@@ -490,10 +436,8 @@ TEST(Calls, ListsLayoutsAndSoundsComeBack) {
 
 TEST(Calls, SilenceFadesAndIsForgottenLater) {
     const physvib_renderer one = renderer();
-    physvib_event event = strikeAt(0);
-    EXPECT_EQ(physvib_renderer_strike(one, &event), PHYSVIB_OK);
-    event = strikeAt(50'000'000);
-    EXPECT_EQ(physvib_renderer_strike(one, &event), PHYSVIB_OK);
+    for (const physvib_event& event : {test::hitAt(0), test::hitAt(50'000'000)})
+        EXPECT_EQ(physvib_renderer_strike(one, &event), PHYSVIB_OK);
     EXPECT_EQ(physvib_renderer_silence(one, 10'000'000, 60'000'000), PHYSVIB_OK);
     std::vector<float> samples(4 * 4800);
     EXPECT_EQ(physvib_renderer_pull_interleaved(one, samples.data(), 4, 4800), PHYSVIB_OK);

@@ -18,9 +18,8 @@ namespace physvib {
 namespace {
 
 physvib_body body() {
-    auto made = test::begun(physvib_body_init);
-    made.mass_kg = 0.25;
-    made.is_camera = 1;
+    physvib_body made = test::feltBall(0.25);
+    made.frequency_hz = made.decay_per_s = 0.0;
     made.overtone_hz[1] = 500.0;
     return made;
 }
@@ -114,8 +113,7 @@ TEST(Impact, OfARendererSoundsFromTheNextPullOnAndIsNotLate) {
         settings.rate_hz = rateHz;
         settings.limiter = 0;
         physvib_layout_preset("phone1", &settings.layout);
-        physvib_renderer renderer = nullptr;
-        ASSERT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_OK) << physvib_error();
+        const physvib_renderer renderer = test::rendererOf(settings);
         std::array<float, 1000> block{};
         float* channel = block.data();
         for (int blocks = 0; blocks < 100; ++blocks) physvib_renderer_pull(renderer, &channel, 1, 777);
@@ -143,36 +141,15 @@ TEST(Impact, OfARendererSoundsFromTheNextPullOnAndIsNotLate) {
 
 TEST(Gain, AWorldOfTheCLibraryLearnsItsLevel) {
     auto settings = test::begun(physvib_world_settings_init);
-    EXPECT_EQ(settings.full_scale_impulse_n_s, 0.0);
-    EXPECT_EQ(settings.settling_s, 0.0);
     settings.full_scale_impulse_n_s = PHYSVIB_AUTOMATIC;
     settings.settling_s = 0.025;
-    physvib_world world = nullptr;
-    ASSERT_EQ(physvib_world_create(&settings, &world), PHYSVIB_OK) << physvib_error();
-    physvib_body floor, ball;
-    physvib_body_init(&floor, sizeof floor);
-    ball = floor;
-    ball.mass_kg = 0.25;
-    ball.is_camera = 1;
-    ball.frequency_hz = 200.0;
-    ball.decay_per_s = 30.0;
-    physvib_world_set_body(world, 0, &floor);
-    physvib_world_set_body(world, 1, &ball);
-    auto contact = test::begun(physvib_contact_init);
-    contact.a = 0;
-    contact.b = 1;
-    contact.impulse_n_s = 40.0;
-    for (int step = 0; step < 20; ++step) {
-        physvib_world_begin_step(world, 0.01, 9.81);
-        if (step == 0 || step == 10) {
-            EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
-            contact.impulse_n_s = 5.0;
-        }
-        physvib_world_end_step(world);
+    physvib_world world = test::worldOfABall(&settings, 0.25);
+    for (const double impulse : {40.0, 5.0}) {
+        const physvib_contact contact = test::touching(impulse);
+        EXPECT_EQ(test::step(world, &contact), PHYSVIB_OK) << physvib_error();
+        for (int i = 0; i < 9; ++i) test::step(world);
     }
-    std::array<physvib_event, 10> events{};
-    events[0].size = sizeof events[0];
-    events.front().size = sizeof events.front();
+    auto events = test::places<10>();
     ASSERT_EQ(physvib_world_take(world, events.data(), 10, 1), 1); // the first one settled
     EXPECT_NEAR(events[0].amplitude, 0.5, 1.0e-9);
     physvib_world_free(world);

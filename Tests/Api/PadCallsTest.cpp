@@ -16,13 +16,8 @@ namespace {
 constexpr physvib_int64 secondNs = 1'000'000'000;
 
 physvib_event padHit(physvib_int64 timeNs, double amplitude = 0.5, double x = 0.5) {
-    auto event = test::sized<physvib_event>();
-    event.time_ns = timeNs;
-    event.frequency_hz = 200.0;
-    event.decay_per_s = 30.0;
-    event.amplitude = amplitude;
+    physvib_event event = test::hitAt(timeNs, amplitude);
     event.x_m = x;
-    event.fixture = event.other = -1;
     return event;
 }
 

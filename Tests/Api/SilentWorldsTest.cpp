@@ -16,22 +16,11 @@ namespace {
 class Silent {
 public:
     Silent() {
-        physvib_world_settings_init(&settings, sizeof settings);
-        physvib_world_create(nullptr, &world);
-        physvib_body_init(&ball, sizeof ball);
-        physvib_world_set_body(world, 0, &ball);
-        ball.mass_kg = 2.0;
-        ball.is_camera = 1;
-        ball.frequency_hz = 200.0;
-        ball.decay_per_s = 30.0;
-        set();
-        physvib_contact_init(&contact, sizeof contact);
         contact.a = 1;
         contact.b = 0;
         contact.x_m = contact.y_m = 0.5;
         contact.normal_y = -1.0;
         contact.approach_m_per_s = 3.0;
-        physvib_renderer_settings_init(&output, sizeof output);
         output.field_width_m = output.field_height_m = 1.0;
     }
     ~Silent() {
@@ -57,7 +46,11 @@ public:
         physvib_world_end_step(world);
     }
 
-    void open() { ASSERT_EQ(physvib_renderer_create(&output, &renderer), PHYSVIB_OK) << physvib_error(); }
+    void open() { renderer = test::rendererOf(output); }
+    void noteAfterStep(int body, int what) {
+        step();
+        EXPECT_EQ(physvib_world_note(world, body, what), PHYSVIB_OK) << physvib_error();
+    }
     void pull(int frames = 64) {
         std::vector<float> samples(static_cast<std::size_t>(frames) * 64);
         int channels = output.channels > 0 ? output.channels : output.layout.count;
@@ -82,12 +75,12 @@ public:
         return text.data();
     }
 
-    physvib_world world = nullptr;
+    physvib_world world = test::worldOfABall();
     physvib_renderer renderer = nullptr;
-    physvib_world_settings settings;
-    physvib_body ball;
-    physvib_contact contact;
-    physvib_renderer_settings output;
+    physvib_world_settings settings = test::begun(physvib_world_settings_init);
+    physvib_body ball = test::feltBall();
+    physvib_contact contact = test::touching();
+    physvib_renderer_settings output = test::begun(physvib_renderer_settings_init);
 };
 
 struct Reason {
@@ -128,27 +121,17 @@ const std::vector<Reason>& reasons() {
          },
          {"No body that touched is a haptic source", "set is_camera"}},
         {"Sensor",
-         [](Silent& s) {
-             s.step();
-             EXPECT_EQ(physvib_world_note(s.world, 1, PHYSVIB_NOTE_SENSOR), PHYSVIB_OK);
-         },
+         [](Silent& s) { s.noteAfterStep(1, PHYSVIB_NOTE_SENSOR); },
          {"body 1 is a sensor", "solid"}},
         {"Filtered",
-         [](Silent& s) {
-             s.step();
-             physvib_world_note(s.world, 1, PHYSVIB_NOTE_FILTERED);
-         },
+         [](Silent& s) { s.noteAfterStep(1, PHYSVIB_NOTE_FILTERED); },
          {"body 1 is filtered", "mask"}},
         {"Disabled",
-         [](Silent& s) {
-             s.step();
-             physvib_world_note(s.world, 1, PHYSVIB_NOTE_DISABLED);
-         },
+         [](Silent& s) { s.noteAfterStep(1, PHYSVIB_NOTE_DISABLED); },
          {"body 1 is disabled", "enable it"}},
         {"Asleep",
          [](Silent& s) {
-             s.step();
-             physvib_world_note(s.world, 1, PHYSVIB_NOTE_ASLEEP);
+             s.noteAfterStep(1, PHYSVIB_NOTE_ASLEEP);
              physvib_world_note(s.world, 0, PHYSVIB_NOTE_SENSOR); // no source: it does not count
          },
          {"body 1 is asleep", "wakes"}},

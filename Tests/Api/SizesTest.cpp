@@ -35,24 +35,6 @@ std::vector<physvib_event> events(int count = 3) {
     return all;
 }
 
-void expectSame(const physvib_event& a, const physvib_event& b) {
-    EXPECT_EQ(a.time_ns, b.time_ns);
-    EXPECT_EQ(a.duration_ns, b.duration_ns);
-    EXPECT_EQ(a.frequency_hz, b.frequency_hz);
-    EXPECT_EQ(a.decay_per_s, b.decay_per_s);
-    EXPECT_EQ(a.amplitude, b.amplitude);
-    EXPECT_EQ(a.x_m, b.x_m);
-    EXPECT_EQ(a.y_m, b.y_m);
-    EXPECT_EQ(a.impulse_n_s, b.impulse_n_s);
-    EXPECT_EQ(a.mass_kg, b.mass_kg);
-    EXPECT_EQ(a.fixture, b.fixture);
-    EXPECT_EQ(a.other, b.other);
-    EXPECT_EQ(a.kind, b.kind);
-    EXPECT_EQ(a.sound, b.sound);
-    EXPECT_EQ(a.z_m, b.z_m);
-    EXPECT_EQ(a.part, b.part);
-}
-
 std::string temporary(const char* name) {
     return (std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + name)).string();
 }
@@ -82,7 +64,7 @@ TEST(Sizes, ListsComeBackFromFilesAndTexts) {
         SizedEvents loaded{size, 5};
         ASSERT_EQ(physvib_events_load(path.c_str(), loaded.data(), 5), 3) << physvib_error();
         for (std::size_t i = 0; i < 3; ++i) {
-            expectSame(loaded[i], list[i]);
+            EXPECT_EQ(test::wordsOf(loaded[i]), test::wordsOf(list[i]));
             EXPECT_EQ(loaded[i].size, size);
         }
         EXPECT_TRUE(loaded.isKeptBehind(3)) << size;
@@ -125,9 +107,7 @@ TEST(Sizes, OneEventIsAsLongAsItSays) {
         EXPECT_EQ(made[0].size, size);
         EXPECT_TRUE(made.isKeptBehind(1)) << size;
         SizedEvents given{size, std::span{one}.last(1)};
-        physvib_renderer renderer = nullptr;
-        auto settings = test::begun(physvib_renderer_settings_init);
-        ASSERT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_OK);
+        const physvib_renderer renderer = test::rendererOf();
         EXPECT_EQ(physvib_renderer_strike(renderer, given.data()), PHYSVIB_OK) << physvib_error();
         std::vector<float> samples(4 * 480);
         EXPECT_EQ(physvib_renderer_pull_interleaved(renderer, samples.data(), 4, 480), PHYSVIB_OK);
@@ -170,16 +150,14 @@ TEST(Sizes, AnEventOfAnUnknownSizeIsRefusedAndNothingHappens) {
         const physvib_world world = test::worldWithEvents(2);
         expectRefused(physvib_world_take(world, room.data(), 3, 1));
         EXPECT_TRUE(room.isKeptBehind(0));
-        std::array<physvib_event, 3> ours{};
-        ours[0].size = sizeof ours[0];
+        auto ours = test::places<3>();
         EXPECT_EQ(physvib_world_take(world, ours.data(), 3, 1), 2) << "they were not lost";
         physvib_world_free(world);
         physvib_pads pads = nullptr;
         ASSERT_EQ(physvib_pads_create(1, 1.0, 1.0, nullptr, &pads), PHYSVIB_OK);
         expectRefused(physvib_pads_strike(pads, 0, given.data()));
         physvib_pads_free(pads);
-        physvib_renderer renderer = nullptr;
-        ASSERT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_OK);
+        const physvib_renderer renderer = test::rendererOf(settings);
         expectRefused(physvib_renderer_strike(renderer, given.data()));
         physvib_renderer_free(renderer);
     }
@@ -238,9 +216,7 @@ TEST(Sizes, TheLayoutOfSettingsSaysWhatFits) {
     for (const std::size_t less : {std::size_t{0}, std::size_t{16}, sizeof settings.layout.part}) {
         ASSERT_EQ(physvib_renderer_settings_init(&settings, sizeof settings - less), PHYSVIB_OK);
         EXPECT_EQ(settings.layout.size, sizeof settings.layout - less);
-        physvib_renderer renderer = nullptr;
-        EXPECT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_OK) << physvib_error();
-        EXPECT_EQ(physvib_renderer_free(renderer), PHYSVIB_OK);
+        EXPECT_EQ(physvib_renderer_free(test::rendererOf(settings)), PHYSVIB_OK);
     }
     physvib_renderer_settings_init(&settings, sizeof settings);
     settings.layout = {}; // which no _init has filled

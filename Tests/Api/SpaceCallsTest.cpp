@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <gtest/gtest.h>
 #include <limits>
 #include <physvib/physvib.h>
-#include <string>
 #include <vector>
 
 namespace physvib {
@@ -62,32 +60,6 @@ TEST(SpaceCalls, AnEventIsFeltAtItsDepthOrOnItsPart) {
         EXPECT_NEAR(chest[j], j == 1 ? 1.0 : 0.0, 1e-6)
             << j << ": the chest's one at the same height and side";
     }
-}
-
-TEST(SpaceCalls, LayoutsAndListsKeepDepthAndPart) {
-    const std::string folder = std::filesystem::temp_directory_path().string();
-    const std::string layoutPath = folder + "/physvib-space-calls.json",
-                      listPath = folder + "/physvib-space-calls.csv";
-    auto vest = test::sized<physvib_layout>(), again = test::sized<physvib_layout>();
-    ASSERT_EQ(physvib_layout_preset("vest16", &vest), PHYSVIB_OK);
-    vest.part[3] = physvib_part("left elbow");
-    ASSERT_EQ(physvib_layout_save(layoutPath.c_str(), "mine", &vest), PHYSVIB_OK) << physvib_error();
-    ASSERT_EQ(physvib_layout_load(layoutPath.c_str(), &again), PHYSVIB_OK) << physvib_error();
-    EXPECT_TRUE(std::ranges::equal(vest.z_m, again.z_m));
-    EXPECT_TRUE(std::ranges::equal(vest.part, again.part));
-
-    const physvib_event events[]{tapAt(0.1, 0.2, -0.125), tapAt(0.1, 0.2, 0.0, "left elbow")};
-    ASSERT_EQ(physvib_events_save(listPath.c_str(), events, 2), PHYSVIB_OK) << physvib_error();
-    std::array<physvib_event, 2> read{};
-    read[0].size = sizeof read[0];
-    read.front().size = sizeof read.front();
-    ASSERT_EQ(physvib_events_load(listPath.c_str(), read.data(), 2), 2) << physvib_error();
-    for (std::size_t i = 0; i < 2; ++i) {
-        EXPECT_EQ(read[i].z_m, events[i].z_m);
-        EXPECT_EQ(read[i].part, events[i].part);
-    }
-    std::filesystem::remove(layoutPath);
-    std::filesystem::remove(listPath);
 }
 
 TEST(SpaceCalls, WrongDepthsAndPartsAreRefused) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Two thousand contacts in one step: what is kept, by which rule, at what cost (Docs/how-it-works.md).
-#include "Support/BegunStructs.h"
 #include "Support/SizedEvents.h"
 #include <algorithm>
 #include <atomic>
@@ -44,8 +43,7 @@ struct Storm {
     Storm& operator=(const Storm&) = delete;
 
     std::vector<physvib_event> land() {
-        physvib_world_begin_step(world, 0.01, 9.81);
-        physvib_world_end_step(world);
+        test::step(world);
         auto contact = test::begun(physvib_contact_init);
         contact.b = 0, contact.normal_y = -1.0;
         milliseconds = millisecondsOf([&] {
@@ -82,8 +80,7 @@ TEST(Storm, TheStrongestThousandOfOneStepBecomeEventsAndAllOfThemArePlayed) {
                 << "harder and harder: the last are the strongest";
         auto output = test::begun(physvib_renderer_settings_init);
         output.field_width_m = output.field_height_m = 1.0;
-        physvib_renderer renderer = nullptr;
-        ASSERT_EQ(physvib_renderer_create(&output, &renderer), PHYSVIB_OK) << physvib_error();
+        const physvib_renderer renderer = test::rendererOf(output);
         const int channels = output.channels > 0 ? output.channels : output.layout.count;
         std::vector<float> samples(static_cast<std::size_t>(480 * channels));
         const auto pull = [&] {
@@ -131,9 +128,8 @@ TEST(Storm, AControllerKeepsTheStrongestOfWhatWaits) {
 // Two threads that render at once: one of them is told, and the renderer has rendered what the other asked.
 
 TEST(Busy, ASecondThreadIsToldAndEachFrameIsRenderedOnce) {
-    auto settings = test::begun(physvib_renderer_settings_init);
-    physvib_renderer renderer = nullptr;
-    ASSERT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_OK) << physvib_error();
+    const auto settings = test::begun(physvib_renderer_settings_init);
+    const physvib_renderer renderer = test::rendererOf(settings);
     constexpr int frames = 4096;
     const int channels = settings.channels > 0 ? settings.channels : settings.layout.count;
     std::atomic<int> done{0}, busy{0}, others{0};

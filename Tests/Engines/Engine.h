@@ -14,7 +14,7 @@ constexpr double radius = 0.1; ///< of balls, where nothing else is said
 
 inline double msOf(const physvib_event& event) { return static_cast<double>(event.time_ns) * 1e-6; }
 
-enum class Type { fixed, kinematic, dynamic };
+enum class Type { fixed, kinematic, dynamic }; ///< as Box2D, Box3D and Jolt number them
 
 /// A ball or a box.
 struct Body {
@@ -30,6 +30,7 @@ struct Body {
     Type type = Type::dynamic; ///< of those that have a mass, which a fixed one may have for later
     bool turns = true, isSensor = false;
     bool moves() const { return massKg > 0 && type == Type::dynamic; }
+    Type kind() const { return massKg > 0 || type != Type::dynamic ? type : Type::fixed; }
     double inertia() const {
         return isBox ? massKg * (width * width + height * height) / 12.0 : massKg * width * width / 8.0;
     }
@@ -39,11 +40,31 @@ struct Motion {
     double x, y, vx, vy, spin, angle;
 };
 
+/// Of a body without a mass of its own.
+inline physvib_body valuesOf(bool isSource) {
+    physvib_body values;
+    physvib_body_init(&values, sizeof values);
+    values.is_camera = isSource;
+    values.frequency_hz = 200.0;
+    values.decay_per_s = 30.0;
+    return values;
+}
+
+/// All that a world has made.
+inline std::vector<physvib_event> eventsOf(physvib_world world) {
+    std::vector<physvib_event> events(4096);
+    events.front().size = sizeof events.front();
+    events.resize(static_cast<std::size_t>(physvib_world_take(world, events.data(), 4096, 1)));
+    return events;
+}
+
 /// One engine and its adapter. Bodies that a pin joins do not touch each other.
 struct Engine {
     virtual ~Engine() = default;
     virtual void begin(double stepSeconds, double gravity, double restitution, double friction) = 0;
-    virtual void floor() = 0; ///< surface at 0
+    virtual void floor() { ///< surface at 0
+        add({.id = floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0});
+    }
     virtual void add(const Body& body) = 0;
     virtual void pin(int /*a*/, int /*b; 0: the world*/, double /*x*/, double /*y*/) {}
     virtual void oneWay(int /*body*/) {} ///< see passes()
@@ -61,8 +82,6 @@ struct Engine {
     }
     virtual void step() = 0; ///< of dt
     virtual Motion motion(int body) const = 0;
-    /// Gives a body that speed upwards. False: not asked for; Box2D 2.4's way is the thesis', without kicks.
-    virtual bool shoot(int /*body*/, double /*vy*/) { return false; }
     /// Of the kit: what `verbs` lists, done to a body. `type x`, `put x y`, `fling vx vy spin`, `moves vx
     /// vy`; `mass`, `gravityScale`, `lockTurn`, `remove`, `sensor`, `passes`, `sleep`, `enable`; `gravity` of
     /// all.
@@ -73,22 +92,13 @@ struct Engine {
         physvib_world_explain(world, text, sizeof text);
         return text;
     }
-    virtual std::vector<physvib_event> take() { ///< all of them
-        std::vector<physvib_event> events(4096);
-        events.front().size = sizeof events.front();
-        events.resize(static_cast<std::size_t>(physvib_world_take(world, events.data(), 4096, 1)));
-        return events;
-    }
+    virtual std::vector<physvib_event> take() { return eventsOf(world); }
     /// The body's number and values, where the adapter does not give them.
     void tell(const Body& body) const {
-        physvib_body values;
-        physvib_body_init(&values, sizeof values);
+        physvib_body values = valuesOf(body.isSource);
         values.mass_kg = body.moves() ? body.massKg : 0.0;
         // a ball's collisions go through its centre
         values.inertia_kg_m2 = body.isBox && body.turns ? body.inertia() : 0.0;
-        values.is_camera = body.isSource;
-        values.frequency_hz = 200.0;
-        values.decay_per_s = 30.0;
         physvib_world_set_body(world, body.id, &values);
     }
     double dt = 0.0;            ///< s, of the next step
@@ -100,6 +110,7 @@ struct Engine {
     double handedOnPart = 0.02; ///< of what a row hands on
     int subSteps = 1;           ///< in each of which gravity changes the velocity
     double restitution = 0.5;
+    bool isKicked = true;     ///< Box2D 2.4's way is the thesis', without kicks; of Box2D 3 none is asked
     bool isContinuous = true; ///< from the next begin() on, where the engine has the choice
     bool isRigid = true;      ///< a collision goes through a row at once, and not over many steps; boxes and
                               ///< joints are asked for

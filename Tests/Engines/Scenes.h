@@ -140,7 +140,7 @@ inline bool kick(const char* name, Engine& engine, int rate) {
     engine.take(); // Chipmunk drops a stack that is made at rest
     for (int step = 0; step < rate / 2; ++step) engine.step();
     const std::size_t atRest = engine.take().size();
-    const bool isAsked = engine.shoot(1, 4.7);
+    engine.act("fling", 1, 0.0, 4.7, 0.0);
     double gained = 0.0;
     for (int step = 0; step < rate / 20 + 1; ++step) {
         engine.step();
@@ -148,7 +148,6 @@ inline bool kick(const char* name, Engine& engine, int rate) {
     }
     const auto events = engine.take();
     physvib_world_free(engine.world);
-    if (!isAsked) return true;
     const double off = events.size() == 1 ? std::fabs(events[0].impulse_n_s / gained - 1.0) : 1.0;
     const bool isFine = atRest == 0 && off <= 0.2;
     std::printf("%s,%d,kick: %zu events before, %zu, %.1f %% from its own %.2f N s%s\n", name, rate, atRest,
@@ -168,7 +167,8 @@ inline int run(const char* name, Engine& engine, int count, char** words) {
     if (engine.isRigid)
         for (const int rate : {100, 1000}) isFine &= row(name, engine, rate);
     if (engine.isRigid)
-        for (const int rate : {60, 240}) isFine &= pole(name, engine, rate) & kick(name, engine, rate);
+        for (const int rate : {60, 240})
+            isFine &= pole(name, engine, rate) & (!engine.isKicked || kick(name, engine, rate));
     return isFine ? 0 : 1;
 }
 

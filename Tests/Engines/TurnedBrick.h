@@ -2,13 +2,10 @@
 // A brick that is turned somehow strikes a wall that is turned otherwise with a corner: what is felt, against
 // the closed form. It needs the inertia about every axis.
 #pragma once
+#include "Trace.h"
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
-#include <physvib/physvib.h>
 #include <utility>
-#include <vector>
 
 // A ball bounces without gravity between six walls of a box that is turned somehow in space: what is felt,
 // against the closed form and against the engine's own motion.
@@ -83,19 +80,11 @@ inline Hit hitOf(std::size_t axis, const Vector& at, const Vector& v) {
 }
 
 inline physvib_world newWorld() {
-    physvib_world_settings settings;
-    physvib_world_settings_init(&settings, sizeof settings);
-    settings.normalisation_s_per_m = 1.0;
-    settings.hand_mass_kg = 0.0; // an amplitude is impulse by mass
-    physvib_world world = nullptr;
-    physvib_world_create(&settings, &world);
-    physvib_body body;
-    physvib_body_init(&body, sizeof body);
-    for (int wall = 1; wall <= 6; ++wall) physvib_world_set_body(world, wall, &body);
+    const physvib_world world = scenes::plainWorld();
+    const physvib_body still = scenes::valuesOf(false);
+    for (int wall = 1; wall <= 6; ++wall) physvib_world_set_body(world, wall, &still);
+    physvib_body body = scenes::valuesOf(true);
     body.mass_kg = massKg;
-    body.is_camera = 1;
-    body.frequency_hz = 200.0;
-    body.decay_per_s = 30.0;
     physvib_world_set_body(world, ball, &body);
     return world;
 }
@@ -149,9 +138,7 @@ inline std::vector<Hit> play(Engine& engine, const Box& box) {
 /// A row of the table. False if an event is missing, or too many are there, or one is too far off.
 inline bool judge(const char* name, Engine& engine, int index, const Box& box) {
     const std::vector<Hit> hits = play(engine, box);
-    std::vector<physvib_event> events(256);
-    events.front().size = sizeof events.front();
-    events.resize(static_cast<std::size_t>(physvib_world_take(engine.world, events.data(), 256, 1)));
+    const std::vector<physvib_event> events = scenes::eventsOf(engine.world);
     physvib_world_free(engine.world);
     Worst own, paper;
     std::size_t found = 0;
@@ -264,14 +251,13 @@ inline bool strike(const char* name, BrickEngine& engine, int index, const Brick
     for (int id = 1; id <= 6; ++id) engine.wall(id, plus({}, -5.0 * (id - 1), normal), normal); // one is met
     engine.throwBrick(brick, centre, velocity);
     for (int step = 0; step < rate / 4; ++step) engine.step();
-    physvib_event event{};
-    event.size = sizeof event;
-    const bool isFelt = physvib_world_take(engine.world, &event, 1, 1) == 1;
+    const std::vector<physvib_event> events = scenes::eventsOf(engine.world);
+    const physvib_event event = events.empty() ? physvib_event{} : events.front();
     physvib_world_free(engine.world);
     const double ms = static_cast<double>(event.time_ns) * 1e-6 - seconds * 1e3,
                  part = event.impulse_n_s / impulse - 1.0,
                  metres = std::hypot(event.x_m - place[0], event.y_m - place[1], event.z_m - place[2]);
-    const bool isFine = isFelt && std::fabs(ms) <= (engine.isExact ? 0.001 : 0.1) &&
+    const bool isFine = !events.empty() && std::fabs(ms) <= (engine.isExact ? 0.001 : 0.1) &&
                         std::fabs(part) <= (engine.isExact ? 1e-5 : 0.02) &&
                         metres <= (engine.isExact ? 1e-5 : 0.01);
     std::printf("| %s | %d | %.4f ms, %.4f %%, %.2f mm |%s\n", name, index, ms, 100 * part, 1e3 * metres,

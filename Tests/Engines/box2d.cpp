@@ -7,7 +7,7 @@
 
 struct Box2d final : scenes::Engine, b2ContactListener {
     Box2d() {
-        landsLate = true;
+        landsLate = true, isKicked = false;
         verbs = "type put fling moves mass lockTurn gravityScale gravity remove sensor passes sleep enable";
     }
     void begin(double stepSeconds, double g, double e, double mu) override {
@@ -42,7 +42,7 @@ struct Box2d final : scenes::Engine, b2ContactListener {
     }
     void add(const scenes::Body& from) override {
         b2BodyDef def;
-        def.type = from.massKg > 0 || from.type != scenes::Type::dynamic ? typeOf(from.type) : b2_staticBody;
+        def.type = static_cast<b2BodyType>(from.kind());
         def.fixedRotation = !from.turns, def.bullet = from.isBullet;
         def.position.Set(static_cast<float>(from.x), static_cast<float>(from.y));
         def.angle = static_cast<float>(from.angle);
@@ -63,11 +63,6 @@ struct Box2d final : scenes::Engine, b2ContactListener {
                from.id, from.isSource, from.grain);
         if (from.isSensor) bodies[from.id]->GetFixtureList()->SetSensor(true);
     }
-    static b2BodyType typeOf(scenes::Type type) {
-        return type == scenes::Type::fixed       ? b2_staticBody
-               : type == scenes::Type::kinematic ? b2_kinematicBody
-                                                 : b2_dynamicBody;
-    }
     void feel(const scenes::Body& body) override {
         number(bodies.at(body.id)->GetFixtureList(), body.id, true);
     }
@@ -77,7 +72,7 @@ struct Box2d final : scenes::Engine, b2ContactListener {
         b2Body& body = *bodies.at(id);
         b2Fixture& fixture = *body.GetFixtureList();
         if (verb != "sleep") body.SetAwake(true);
-        if (verb == "type") body.SetType(typeOf(static_cast<scenes::Type>(x)));
+        if (verb == "type") body.SetType(static_cast<b2BodyType>(x));
         if (verb == "put") body.SetTransform(at, body.GetAngle());
         if (verb == "fling" || verb == "moves")
             body.SetLinearVelocity(at), body.SetAngularVelocity(static_cast<float>(z));

@@ -9,7 +9,7 @@
 
 struct Box2d3 final : scenes::Engine {
     Box2d3() {
-        subSteps = 4, slowest = 60, handedOnPart = 0.05;
+        subSteps = 4, slowest = 60, handedOnPart = 0.05, isKicked = false;
         verbs = "type put fling moves mass lockTurn gravityScale gravity remove passes sleep enable";
     }
     ~Box2d3() override { end(); }
@@ -27,9 +27,6 @@ struct Box2d3 final : scenes::Engine {
         haptics = {};
         haptics.world = world;
         haptics.box2d = b2CreateWorld(&def);
-    }
-    void floor() override {
-        add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0});
     }
     void tiles(double left, double right, int count) override {
         std::vector<b2Vec2> points;
@@ -52,7 +49,7 @@ struct Box2d3 final : scenes::Engine {
     }
     void add(const scenes::Body& from) override {
         b2BodyDef def = b2DefaultBodyDef();
-        def.type = from.massKg > 0 || from.type != scenes::Type::dynamic ? typeOf(from.type) : b2_staticBody;
+        def.type = static_cast<b2BodyType>(from.kind());
         def.position = {static_cast<float>(from.x), static_cast<float>(from.y)};
         // b2MakeRot of 3.1 is off by up to 0.1 degrees
         def.rotation = {std::cos(static_cast<float>(from.angle)), std::sin(static_cast<float>(from.angle))};
@@ -80,11 +77,6 @@ struct Box2d3 final : scenes::Engine {
         if (!from.turns) lockTurn(body);
         number(body, from.id, from.isSource);
     }
-    static b2BodyType typeOf(scenes::Type type) {
-        return type == scenes::Type::fixed       ? b2_staticBody
-               : type == scenes::Type::kinematic ? b2_kinematicBody
-                                                 : b2_dynamicBody;
-    }
     static void lockTurn(b2BodyId body) {
 #if defined(B2_NULL_INDEX)
         b2MotionLocks locks{};
@@ -100,7 +92,7 @@ struct Box2d3 final : scenes::Engine {
         if (verb == "gravity") return b2World_SetGravity(haptics.box2d, {0, -at.x});
         const b2BodyId body = bodies.at(id);
         if (verb != "sleep" && verb != "enable") b2Body_SetAwake(body, true);
-        if (verb == "type") b2Body_SetType(body, typeOf(static_cast<scenes::Type>(x)));
+        if (verb == "type") b2Body_SetType(body, static_cast<b2BodyType>(x));
         if (verb == "put") b2Body_SetTransform(body, {at.x, at.y}, b2Body_GetRotation(body));
         if (verb == "fling" || verb == "moves")
             b2Body_SetLinearVelocity(body, at), b2Body_SetAngularVelocity(body, static_cast<float>(z));
@@ -128,12 +120,7 @@ struct Box2d3 final : scenes::Engine {
         return text;
     }
     void number(b2BodyId which, int id, bool isSource) {
-        physvib_body values;
-        physvib_body_init(&values, sizeof values);
-        values.is_camera = isSource;
-        values.frequency_hz = 200.0;
-        values.decay_per_s = 30.0;
-        if (physvib_box2d3_set(&haptics, which, id, values) != PHYSVIB_OK)
+        if (physvib_box2d3_set(&haptics, which, id, scenes::valuesOf(isSource)) != PHYSVIB_OK)
             std::fprintf(stderr, "%s\n", physvib_error());
     }
     void pin(int a, int b, double x, double y) override {

@@ -24,12 +24,9 @@ struct Box3d final : scenes::Engine {
         haptics.world = world;
         haptics.box3d = b3CreateWorld(&def);
     }
-    void floor() override {
-        add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0});
-    }
     void add(const scenes::Body& from) override {
         b3BodyDef def = b3DefaultBodyDef();
-        def.type = from.massKg > 0 || from.type != scenes::Type::dynamic ? typeOf(from.type) : b3_staticBody;
+        def.type = static_cast<b3BodyType>(from.kind());
         def.position = {real(from.x), real(from.y), 0};
         // b3MakeQuatFromAxisAngle is off by up to 0.1 degrees
         def.rotation = {{0, 0, real(std::sin(from.angle / 2))}, real(std::cos(from.angle / 2))};
@@ -53,17 +50,12 @@ struct Box3d final : scenes::Engine {
     }
     static float real(double value) { return static_cast<float>(value); }
     static b3Vec3 vector(double x, double y) { return {real(x), real(y), 0}; }
-    static b3BodyType typeOf(scenes::Type type) {
-        return type == scenes::Type::fixed       ? b3_staticBody
-               : type == scenes::Type::kinematic ? b3_kinematicBody
-                                                 : b3_dynamicBody;
-    }
     void feel(const scenes::Body& body) override { number(bodies.at(body.id), body.id, true); }
     void act(const std::string& verb, int id, double x, double y, double z) override {
         if (verb == "gravity") return b3World_SetGravity(haptics.box3d, vector(0, -x));
         const b3BodyId body = bodies.at(id);
         if (verb != "sleep" && verb != "enable") b3Body_SetAwake(body, true);
-        if (verb == "type") b3Body_SetType(body, typeOf(static_cast<scenes::Type>(x)));
+        if (verb == "type") b3Body_SetType(body, static_cast<b3BodyType>(x));
         if (verb == "put") b3Body_SetTransform(body, {real(x), real(y), 0}, b3Body_GetRotation(body));
         if (verb == "fling" || verb == "moves")
             b3Body_SetLinearVelocity(body, vector(x, y)), b3Body_SetAngularVelocity(body, {0, 0, real(z)});
@@ -95,12 +87,7 @@ struct Box3d final : scenes::Engine {
         return text;
     }
     void number(b3BodyId which, int id, bool isSource) {
-        physvib_body values;
-        physvib_body_init(&values, sizeof values);
-        values.is_camera = isSource;
-        values.frequency_hz = 200.0;
-        values.decay_per_s = 30.0;
-        if (physvib_box3d_set(&haptics, which, id, values) != PHYSVIB_OK)
+        if (physvib_box3d_set(&haptics, which, id, scenes::valuesOf(isSource)) != PHYSVIB_OK)
             std::fprintf(stderr, "%s\n", physvib_error());
     }
     void pin(int a, int b, double x, double y) override {
@@ -137,11 +124,6 @@ struct Box3d final : scenes::Engine {
         if (haptics.numbers != nullptr) b3DestroyWorld(haptics.box3d);
         physvib_box3d_free(&haptics);
         bodies.clear();
-    }
-    bool shoot(int id, double vy) override {
-        b3Body_SetAwake(bodies.at(id), true);
-        b3Body_SetLinearVelocity(bodies.at(id), vector(0, vy));
-        return true;
     }
     scenes::Motion motion(int id) const override {
         const b3BodyId body = bodies.at(id);

@@ -20,9 +20,6 @@ struct Bullet final : scenes::Engine {
         bodies.clear(), moved.clear(), joints.clear(), haptics.reset(), bullet.reset(), shapes.clear(),
             platform = nullptr;
     }
-    void floor() override {
-        add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0});
-    }
     void add(const scenes::Body& from) override {
         tell(from);
         if (from.isBox)
@@ -129,11 +126,6 @@ struct Bullet final : scenes::Engine {
             bodies.at(id)->setWorldTransform(at);
         }
         bullet->stepSimulation(real(dt), 0);
-    }
-    bool shoot(int id, double vy) override {
-        bodies.at(id)->activate();
-        bodies.at(id)->setLinearVelocity({0, btScalar(vy), 0});
-        return true;
     }
     scenes::Motion motion(int id) const override {
         const btRigidBody& body = *bodies.at(id);

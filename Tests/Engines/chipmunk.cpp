@@ -125,11 +125,6 @@ struct Chipmunk final : scenes::Engine {
         physvib_chipmunk_explain(space, world, text, sizeof text);
         return text;
     }
-    bool shoot(int id, double vy) override {
-        cpBodyActivate(bodies.at(id));
-        cpBodySetVelocity(bodies.at(id), cpv(0, vy));
-        return true;
-    }
     scenes::Motion motion(int id) const override {
         const cpBody* body = bodies.at(id);
         const cpVect at = cpBodyGetPosition(body), v = cpBodyGetVelocity(body);

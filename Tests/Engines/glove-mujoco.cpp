@@ -2,6 +2,7 @@
 // A hand in MuJoCo closes around a ball: who feels what when. Each finger tip is a haptic source of its part.
 // Prints a table, and compares each finger's first touch with the engine's own motion.
 // Usage: physvib-glove-mujoco [EVENTS.csv]
+#include "Engine.h"
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -212,13 +213,6 @@ HandMeetings play(Hand& hand, physvib_world world) {
     return meetings;
 }
 
-std::vector<physvib_event> take(physvib_world world) {
-    std::vector<physvib_event> events(1024);
-    events.front().size = sizeof events.front();
-    events.resize(static_cast<std::size_t>(physvib_world_take(world, events.data(), 1024, 1)));
-    return events;
-}
-
 /// A line of the table. False if the finger felt nothing, or something when it did not meet the ball.
 bool row(const Finger& finger, const Meetings& meetings, const std::vector<physvib_event>& events) {
     int count = 0;
@@ -243,7 +237,7 @@ int main(int count, char** words) {
     if (hand.model == nullptr) return 1;
     const physvib_world world = worldOf(hand);
     const HandMeetings meetings = play(hand, world);
-    const std::vector<physvib_event> events = take(world);
+    const std::vector<physvib_event> events = scenes::eventsOf(world);
     std::puts("| finger | first touch (s) | strongest (N s) | events, of meetings | worst onset |\n"
               "| --- | --- | --- | --- | --- |");
     bool isRight = true;

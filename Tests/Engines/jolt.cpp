@@ -40,9 +40,6 @@ struct Jolt final : scenes::Engine, JPH::ContactListener {
         haptics = std::make_unique<PhysVibJolt>(*system, world, this);
     }
     void end() { bodies.clear(), haptics.reset(), system.reset(), hasPlatform = false; }
-    void floor() override {
-        add({.id = scenes::floorBody, .isBox = true, .y = -1, .width = 40, .height = 2, .massKg = 0});
-    }
     void add(const scenes::Body& from) override {
         JPH::Ref<JPH::Shape> shape =
             from.isBox
@@ -50,10 +47,9 @@ struct Jolt final : scenes::Engine, JPH::ContactListener {
                                                               from.moves() ? real(from.width / 2) : 5.0F},
                                                              0))
                 : new JPH::SphereShape(real(from.width / 2));
-        const bool isFixed =
-            from.type == scenes::Type::fixed || (from.massKg <= 0 && from.type == scenes::Type::dynamic);
+        const bool isFixed = from.kind() == scenes::Type::fixed;
         JPH::BodyCreationSettings made(shape, place(from.x, from.y), turned(from.angle),
-                                       isFixed ? JPH::EMotionType::Static : typeOf(from.type),
+                                       static_cast<JPH::EMotionType>(from.kind()),
                                        isFixed && from.massKg <= 0 ? fixed : moving);
         made.mRestitution = elasticity, made.mFriction = friction;
         made.mLinearDamping = made.mAngularDamping = 0;
@@ -72,12 +68,7 @@ struct Jolt final : scenes::Engine, JPH::ContactListener {
         feel(from);
     }
     void feel(const scenes::Body& body) override {
-        physvib_body values;
-        physvib_body_init(&values, sizeof values);
-        values.is_camera = body.isSource;
-        values.frequency_hz = 200.0;
-        values.decay_per_s = 30.0;
-        haptics->set(bodies.at(body.id), body.id, values);
+        haptics->set(bodies.at(body.id), body.id, scenes::valuesOf(body.isSource));
     }
     void act(const std::string& verb, int number, double x, double y, double z) override {
         if (verb == "gravity") return system->SetGravity({0, real(-x), 0});
@@ -85,7 +76,7 @@ struct Jolt final : scenes::Engine, JPH::ContactListener {
         JPH::Body* const body = system->GetBodyLockInterfaceNoLock().TryGetBody(id);
         if (verb != "sleep" && verb != "remove" && !body->IsStatic()) all().ActivateBody(id);
         if (verb == "type")
-            all().SetMotionType(id, typeOf(static_cast<scenes::Type>(x)), JPH::EActivation::Activate);
+            all().SetMotionType(id, static_cast<JPH::EMotionType>(x), JPH::EActivation::Activate);
         if (verb == "put") all().SetPosition(id, place(x, y), JPH::EActivation::Activate);
         if (verb == "fling" || verb == "moves") {
             if (body->IsStatic()) return;
@@ -131,10 +122,6 @@ struct Jolt final : scenes::Engine, JPH::ContactListener {
         haptics->update(real(dt), &memory, &jobs);
         if (!haptics->error().empty()) std::fprintf(stderr, "%s\n", haptics->error().c_str());
     }
-    bool shoot(int id, double vy) override {
-        all().SetLinearVelocity(bodies.at(id), {0, real(vy), 0});
-        return true;
-    }
     scenes::Motion motion(int id) const override {
         const JPH::Body* const body = system->GetBodyLockInterfaceNoLock().TryGetBody(bodies.at(id));
         const JPH::RVec3 at = body->GetCenterOfMassPosition();
@@ -148,11 +135,6 @@ struct Jolt final : scenes::Engine, JPH::ContactListener {
     static JPH::RVec3 place(double x, double y) { return JPH::RVec3(real(x), real(y), 0); }
     static JPH::Quat turned(double angle) {
         return {0, 0, real(std::sin(angle / 2)), real(std::cos(angle / 2))};
-    }
-    static JPH::EMotionType typeOf(scenes::Type type) {
-        return type == scenes::Type::fixed       ? JPH::EMotionType::Static
-               : type == scenes::Type::kinematic ? JPH::EMotionType::Kinematic
-                                                 : JPH::EMotionType::Dynamic;
     }
     static constexpr JPH::ObjectLayer fixed = 0, moving = 1, passing = 2;
     float elasticity = 0, friction = 0;

@@ -120,11 +120,6 @@ struct Ode final : scenes::Engine {
         if (physvib_ode_step(&haptics, ode, dt) != PHYSVIB_OK) std::fprintf(stderr, "%s\n", haptics.error);
         dJointGroupEmpty(joints);
     }
-    bool shoot(int id, double vy) override {
-        dBodyEnable(bodies.at(id));
-        dBodySetLinearVel(bodies.at(id), 0, vy, 0);
-        return true;
-    }
     scenes::Motion motion(int id) const override {
         const auto known = bodies.find(id);
         if (known == bodies.end()) {

@@ -27,9 +27,8 @@ struct Fall {
         joints = dJointGroupCreate(0);
         haptics->world = scenes::plainWorld();
         number(floor = dCreatePlane(space, 0, 1, 0, 0), 100);
-        physvib_body known;
-        physvib_body_init(&known, sizeof known);
-        known.is_camera = 1, known.mass_kg = massKg, known.frequency_hz = 200, known.decay_per_s = 30;
+        physvib_body known = scenes::valuesOf(true);
+        known.mass_kg = massKg;
         physvib_world_set_body(haptics->world, 1, &known);
     }
     Fall(const Fall&) = delete;
@@ -80,10 +79,7 @@ struct Fall {
     std::vector<double> felt(double seconds) {
         for (int i = 0; i * dt < seconds; ++i) step();
         std::vector<double> impulses;
-        physvib_event events[64]{};
-        events[0].size = sizeof events[0];
-        const auto count = physvib_world_take(haptics->world, events, 64, 1);
-        for (auto i = count - count; i < count; ++i) impulses.push_back(events[i].impulse_n_s);
+        for (const auto& event : scenes::eventsOf(haptics->world)) impulses.push_back(event.impulse_n_s);
         return impulses;
     }
     double dt;

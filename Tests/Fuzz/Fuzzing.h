@@ -22,14 +22,18 @@ inline std::string_view asText(const std::uint8_t* data, std::size_t size) {
     return {reinterpret_cast<const char*>(data), size};
 }
 
+/// One line of reasonable length.
+inline void demandLine(const std::string& text) {
+    demand(text.size() < 600, "too long a message", text);
+    for (const char c : text) demand(static_cast<unsigned char>(c) >= 0x20, "more than one line", text);
+}
+
 /// A refusal is one clear line of reasonable length, and leaves nothing behind.
 template <class T>
 void demandClearRefusal(const Result<T>& read, bool isEmpty) {
     demand(isEmpty, "half-loaded", read.error);
     demand(read.error.starts_with("f:"), "does not begin with the file's name", read.error);
-    demand(read.error.size() < 600, "too long a message", read.error);
-    for (const char c : read.error)
-        demand(static_cast<unsigned char>(c) >= 0x20, "more than one line", read.error);
+    demandLine(read.error);
 }
 
 constexpr auto isDefault = []<class Value>(const Value& value) { return value == Value{}; };

@@ -9,12 +9,14 @@
 namespace {
 using namespace physvib;
 
+void demandNumbers(std::initializer_list<double> all) {
+    for (const double number : all) fuzz::demand(std::isfinite(number), "a number is missing");
+}
+
 void analyse(const StudyData<IdentificationTrial>& data) {
     for (const auto& condition : data.conditions) {
         const auto it = informationTransfer(ConfusionMatrix{withTolerance(condition.trials, 1)});
-        fuzz::demand(std::isfinite(it.bits) && std::isfinite(it.biasBits) && std::isfinite(it.leastBits) &&
-                         std::isfinite(it.trialsPerCell),
-                     "a number is missing");
+        demandNumbers({it.bits, it.biasBits, it.leastBits, it.trialsPerCell});
     }
 }
 
@@ -23,7 +25,7 @@ void analyse(const StudyData<LocationTrial>& data) {
         const auto normals = responseNormals(condition.trials);
         if (!normals.fault.empty()) continue;
         for (const double p : percentCounts(normals, likelihoodMap(normals, 31, 16), "c").percent)
-            fuzz::demand(std::isfinite(p), "a number is missing");
+            demandNumbers({p});
     }
 }
 
@@ -36,33 +38,23 @@ void analyse(const StudyData<PercentCounts>& data) {
 void analyse(const StudyData<ChoiceTrial>& data) {
     for (const auto& summary : summariseChoices(data.conditions.front().trials))
         if (const auto& interval = summary.shares.front().interval)
-            fuzz::demand(std::isfinite(interval->least) && std::isfinite(interval->most),
-                         "a number is missing");
+            demandNumbers({interval->least, interval->most});
 }
 
 void analyse(const StudyData<LevelTrial>& data) {
     for (const auto& summary : summariseLevels(data.conditions.front().trials))
-        fuzz::demand(std::isfinite(summary.estimate) && std::isfinite(summary.deviation),
-                     "a number is missing");
+        demandNumbers({summary.estimate, summary.deviation});
 }
 
 void analyse(const RatingData& ratings) {
     for (const auto& summary : summariseRatings(ratings.conditions.front().trials))
-        for (const double half : summary.halfIntervals)
-            fuzz::demand(std::isfinite(half), "a number is missing");
+        for (const double half : summary.halfIntervals) demandNumbers({half});
 }
 
 void analyse(const StudyData<LevelAnswer>& data) {
     const PsychometricModel model{PsychometricShape::normal};
     for (const auto& own : psychometricByParticipant(data.conditions.front().trials, model))
-        fuzz::demand(!own.fit.fault.empty() ||
-                         (std::isfinite(own.fit.function.threshold) && std::isfinite(own.fit.function.width)),
-                     "a number is missing");
-}
-
-template <class T>
-bool isEmpty(const StudyData<T>& data) {
-    return data.conditions.empty();
+        if (own.fit.fault.empty()) demandNumbers({own.fit.function.threshold, own.fit.function.width});
 }
 
 template <class Read>
@@ -72,7 +64,7 @@ void tryOne(Read read, std::string_view text) {
     if (data)
         analyse(data.value);
     else
-        fuzz::demandClearRefusal(data, isEmpty(data.value));
+        fuzz::demandClearRefusal(data, data.value.conditions.empty());
 }
 
 } // namespace

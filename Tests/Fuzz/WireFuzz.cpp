@@ -23,21 +23,19 @@ void demandRoundTrip(std::span<const std::uint8_t> payload) {
     fuzz::demand(wire::encode(read, again) == size && frame == again, "written differently");
 }
 
+template <class... Messages>
+void demandRoundTrips(std::span<const std::uint8_t> payload) {
+    (demandRoundTrip<Messages>(payload), ...);
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace physvib::wire;
     FrameDecoder decoder;
-    for (std::size_t i = 0; i < size; ++i) {
-        const auto payload = decoder.feed(data[i]);
-        demandRoundTrip<Hello>(payload), demandRoundTrip<HelloReply>(payload),
-            demandRoundTrip<Strike>(payload);
-        demandRoundTrip<CompactStrike>(payload), demandRoundTrip<Segment>(payload),
-            demandRoundTrip<Gains>(payload), demandRoundTrip<Ping>(payload);
-        demandRoundTrip<Pong>(payload), demandRoundTrip<TelemetryRequest>(payload),
-            demandRoundTrip<Telemetry>(payload);
-        demandRoundTrip<StopAll>(payload), demandRoundTrip<SelfTest>(payload),
-            demandRoundTrip<SelfTestReply>(payload);
-    }
+    for (std::size_t i = 0; i < size; ++i)
+        demandRoundTrips<Hello, HelloReply, Strike, CompactStrike, Segment, Gains, Ping, Pong,
+                         TelemetryRequest, Telemetry, StopAll, SelfTest, SelfTestReply>(
+            decoder.feed(data[i]));
     return 0;
 }

@@ -29,10 +29,10 @@ namespace fs = std::filesystem;
 constexpr long mostKilobytes = 300'000;
 
 struct Kind {
-    std::string name;
-    std::string ending;              ///< of its files
-    std::vector<std::string> wholes; ///< files that are read
-    std::vector<std::string> calls;  ///< FILE is the mutated one
+    std::string name;                  ///< of its corpus, too
+    std::string ending;                ///< of its files
+    std::vector<std::string> calls;    ///< FILE is the mutated one
+    std::vector<std::string> wholes{}; ///< files that are read
 };
 
 struct Outcome {
@@ -83,55 +83,47 @@ std::vector<Kind> kindsOf(const fs::path& source, const fs::path& folder) {
                                              "export FILE --to o.haptic",
                                              "export FILE --to o.ahap",
                                              "stimulus wav FILE --at 0.3,0.4 --level-g 0.5 --out o.wav"};
-    auto scenes = filesIn(corpus / "scene");
-    for (auto& scene : filesIn(source / "Source/Scene/Scenes")) scenes.push_back(std::move(scene));
     const std::string table = " FILE --export e.csv --picture p.svg";
-    return {{"scene",
-             "json",
-             scenes,
-             {"render FILE --seconds 0.1 --out o.wav --events e.csv",
-              "render FILE --seconds 0.1 --picture p.png"}},
-            {"session",
-             "json",
-             filesIn(corpus / "session"),
-             {"render FILE --seconds 0.1 --out o.wav",
-              "render FILE --seconds 0.1 --layout ring2 --events e.csv"}},
-            {"events",
-             "csv",
-             filesIn(corpus / "events"),
-             {"render --from-events FILE --seconds 0.1 --out o.wav --picture p.png"}},
-            {"layout",
-             "json",
-             filesIn(corpus / "layout"),
-             {"render shake-the-box --seconds 0.1 --layout FILE --out o.wav --picture p.png",
-              "stimulus phantom --at 0.2,0.3 --layout FILE --out o.wav"}},
-            {"actuator",
-             "json",
-             filesIn(corpus / "actuator"),
-             {"render shake-the-box --seconds 0.1 --actuator FILE --out o.wav",
-              "render shake-the-box --seconds 0.1 --actuator FILE --remap on --out o.wav"}},
-            {"coupling",
-             "json",
-             filesIn(corpus / "coupling"),
-             {"render shake-the-box --seconds 0.1 --layout phone2 --coupling FILE --out o.wav"}},
-            {"protocol",
-             "json",
-             filesIn(corpus / "protocol"),
-             {"study show FILE", "study run FILE --observer simulated --participant P --out ."}},
-            {"study",
-             "csv",
-             filesIn(corpus / "study"),
-             {"analyse confusion" + table, "analyse resolution" + table, "analyse percent-counts" + table,
-              "analyse choices" + table, "analyse ratings" + table, "analyse levels" + table,
-              "analyse psychometric FILE --level x --measure y --export e.csv"}},
-            {"hjif", "hjif", filesIn(corpus / "hjif"), clipCalls},
-            {"haptic", "haptic", filesIn(corpus / "haptic"), clipCalls},
-            {"ahap", "ahap", filesIn(corpus / "ahap"), clipCalls},
-            {"wav", "wav", {knock(SF_FORMAT_WAV | SF_FORMAT_PCM_16, folder)}, recordingCalls},
-            {"aiff", "aiff", {knock(SF_FORMAT_AIFF | SF_FORMAT_PCM_16, folder)}, recordingCalls},
-            {"flac", "flac", {knock(SF_FORMAT_FLAC | SF_FORMAT_PCM_16, folder)}, recordingCalls},
-            {"ogg", "ogg", {knock(SF_FORMAT_OGG | SF_FORMAT_VORBIS, folder)}, recordingCalls},
-            {"opus", "opus", {knock(SF_FORMAT_OGG | SF_FORMAT_OPUS, folder)}, recordingCalls}};
+    std::vector<Kind> kinds{
+        {"scene",
+         "json",
+         {"render FILE --seconds 0.1 --out o.wav --events e.csv",
+          "render FILE --seconds 0.1 --picture p.png"}},
+        {"session",
+         "json",
+         {"render FILE --seconds 0.1 --out o.wav",
+          "render FILE --seconds 0.1 --layout ring2 --events e.csv"}},
+        {"events", "csv", {"render --from-events FILE --seconds 0.1 --out o.wav --picture p.png"}},
+        {"layout",
+         "json",
+         {"render shake-the-box --seconds 0.1 --layout FILE --out o.wav --picture p.png",
+          "stimulus phantom --at 0.2,0.3 --layout FILE --out o.wav"}},
+        {"actuator",
+         "json",
+         {"render shake-the-box --seconds 0.1 --actuator FILE --out o.wav",
+          "render shake-the-box --seconds 0.1 --actuator FILE --remap on --out o.wav"}},
+        {"coupling",
+         "json",
+         {"render shake-the-box --seconds 0.1 --layout phone2 --coupling FILE --out o.wav"}},
+        {"protocol",
+         "json",
+         {"study show FILE", "study run FILE --observer simulated --participant P --out ."}},
+        {"study",
+         "csv",
+         {"analyse confusion" + table, "analyse resolution" + table, "analyse percent-counts" + table,
+          "analyse choices" + table, "analyse ratings" + table, "analyse levels" + table,
+          "analyse psychometric FILE --level x --measure y --export e.csv"}}};
+    for (const char* clip : {"hjif", "haptic", "ahap"}) kinds.push_back({clip, clip, clipCalls});
+    for (Kind& kind : kinds) kind.wholes = filesIn(corpus / kind.name);
+    for (auto& scene : filesIn(source / "Source/Scene/Scenes"))
+        kinds.front().wholes.push_back(std::move(scene));
+    for (const auto& [name, format] : {std::pair{"wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16},
+                                       {"aiff", SF_FORMAT_AIFF | SF_FORMAT_PCM_16},
+                                       {"flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_16},
+                                       {"ogg", SF_FORMAT_OGG | SF_FORMAT_VORBIS},
+                                       {"opus", SF_FORMAT_OGG | SF_FORMAT_OPUS}})
+        kinds.push_back({name, name, recordingCalls, {knock(format, folder)}});
+    return kinds;
 }
 
 Outcome run(const std::string& program, const fs::path& folder, const std::string& words) {

@@ -16,9 +16,30 @@ namespace physvib::test {
 /// Values of the bytes from at_ to end_, then of zeros.
 class BytesAsValues {
 protected:
+    /// Each byte that is left is a call. How many they were; each has to return what `isAnswer` says.
+    template <class Call, class IsAnswer>
+    int run(const std::uint8_t* data, std::size_t size, const char* (*error)(), Call call,
+            IsAnswer isAnswer) {
+        at_ = data;
+        end_ = data + size;
+        int calls = 0;
+        for (; at_ < end_; ++calls)
+            if (const physvib_int64 result = call(byte()); !isAnswer(result)) {
+                std::fprintf(stderr, "result %lld: %s\n", result, error());
+                std::abort();
+            }
+        return calls;
+    }
     std::uint8_t byte() { return at_ < end_ ? *at_++ : std::uint8_t{0}; }
     int small() { return static_cast<int>(byte() % 8) - 1; }
     bool isRare() { return byte() % 32 == 0; }
+    double numberOr(double own) {
+        constexpr double inf = std::numeric_limits<double>::infinity(),
+                         nan = std::numeric_limits<double>::quiet_NaN();
+        const double odd[] = {0.0, -1.0, 1.0, inf, -inf, nan, 1.0e308, PHYSVIB_UNKNOWN, 1.0e-310, own};
+        const std::uint8_t b = byte();
+        return b % 4 == 0 ? odd[b / 4 % std::size(odd)] : b / 16.0;
+    }
 
     /// Now and then none, one of another version, or one whose numbers are anything.
     template <class Struct>
@@ -49,38 +70,20 @@ public:
 
     /// How many calls they were.
     int run(const std::uint8_t* data, std::size_t size) {
-        at_ = data;
-        end_ = data + size;
-        int calls = 0;
-        while (at_ < end_) {
-            demandCode(call(byte()));
-            ++calls;
-        }
-        return calls;
+        return BytesAsValues::run(
+            data, size, physvib_error, [this](std::uint8_t which) { return call(which); },
+            [](physvib_int64 result) {
+                return result >= PHYSVIB_ERROR_BUSY && (result >= 0 || std::strlen(physvib_error()) < 640);
+            });
     }
 
 private:
-    static void demandCode(physvib_int64 result) {
-        if (result >= PHYSVIB_ERROR_BUSY && (result >= 0 || std::strlen(physvib_error()) < 640)) return;
-        std::fprintf(stderr, "result %lld: %s\n", result, physvib_error());
-        std::abort();
-    }
-
     physvib_int64 ns() {
         return byte() % 16 == 0 ? std::numeric_limits<physvib_int64>::min() + byte() : 1000000LL * byte();
     }
     /// Of an event, rarely another one than ours.
     std::size_t size() { return isRare() ? byte() : std::size_t{0}; }
-    double number() {
-        constexpr double inf = std::numeric_limits<double>::infinity();
-        static constexpr double odd[] = {0.0,      -1.0,
-                                         1.0,      inf,
-                                         -inf,     std::numeric_limits<double>::quiet_NaN(),
-                                         1.0e308,  PHYSVIB_UNKNOWN,
-                                         1.0e-310, 0.01};
-        const std::uint8_t b = byte();
-        return b % 4 == 0 ? odd[b / 4 % std::size(odd)] : b / 16.0;
-    }
+    double number() { return numberOr(0.01); }
     physvib_renderer renderer() {
         return isRare()   ? reinterpret_cast<physvib_renderer>(ns())
                : isRare() ? reinterpret_cast<physvib_renderer>(worlds_[0])
@@ -106,7 +109,7 @@ private:
     }
     physvib_int64 createPads() {
         if (!isRare()) return 0;
-        physvib_pads& kept = pads_[alive(pads_)];
+        physvib_pads& kept = pads_[byte() % 2];
         pads_[3] = kept;
         physvib_pads_free(kept);
         kept = nullptr;
@@ -211,23 +214,19 @@ private:
 
     physvib_int64 createRenderer() { // megabytes: not often
         if (!isRare()) return 0;
-        physvib_renderer& kept = renderers_[alive(renderers_)];
+        physvib_renderer& kept = renderers_[byte() % 2];
         renderers_[3] = kept;
         physvib_renderer_free(kept);
         return physvib_renderer_create(of(rendererSettings_, physvib_renderer_settings_init),
                                        isRare() ? nullptr : &kept);
     }
     physvib_int64 createWorld() {
-        physvib_world& kept = worlds_[alive(worlds_)];
+        physvib_world& kept = worlds_[byte() % 2];
         if (kept != nullptr && !isRare()) return 0;
         worlds_[3] = kept;
         physvib_world_free(kept);
         return physvib_world_create(of(worldSettings_, physvib_world_settings_init),
                                     isRare() ? nullptr : &kept);
-    }
-    template <class Names>
-    std::size_t alive(const Names&) {
-        return byte() % 2;
     }
 
     physvib_int64 setBody() {

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
 #include <gtest/gtest.h>
 #include <physvib/physvib.h>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace physvib::test {
@@ -28,21 +30,85 @@ Struct begun(int (*init)(Struct* place, std::size_t size)) {
     return made;
 }
 
-/// A world that has made an event in every other one of twice `steps` steps, of a ball on a floor.
-inline physvib_world worldWithEvents(int steps) {
-    physvib_world world = nullptr;
-    EXPECT_EQ(physvib_world_create(nullptr, &world), PHYSVIB_OK);
+/// Room for events that say their size.
+template <std::size_t Count>
+std::array<physvib_event, Count> places() {
+    std::array<physvib_event, Count> all{};
+    all.front().size = sizeof all.front();
+    return all;
+}
+
+/// All of it but its size, to the last bit.
+inline std::string wordsOf(const physvib_event& e) {
+    std::array<char, 400> text{};
+    std::snprintf(text.data(), text.size(), "%lld %lld %a %a %a %a %a %a %a %d %d %d %d %a %d\n",
+                  static_cast<long long>(e.time_ns), static_cast<long long>(e.duration_ns), e.frequency_hz,
+                  e.decay_per_s, e.amplitude, e.x_m, e.y_m, e.impulse_n_s, e.mass_kg, e.fixture, e.other,
+                  e.kind, e.sound, e.z_m, e.part);
+    return text.data();
+}
+
+inline physvib_renderer
+rendererOf(const physvib_renderer_settings& settings = begun(physvib_renderer_settings_init)) {
+    physvib_renderer made = nullptr;
+    EXPECT_EQ(physvib_renderer_create(&settings, &made), PHYSVIB_OK) << physvib_error();
+    return made;
+}
+
+/// What rings at 200 Hz in the corner of the field.
+inline physvib_event hitAt(physvib_int64 timeNs, double amplitude = 0.5) {
+    auto event = begun(physvib_event_init);
+    event.time_ns = timeNs;
+    event.frequency_hz = 200.0;
+    event.decay_per_s = 30.0;
+    event.amplitude = amplitude;
+    return event;
+}
+
+/// What a ball of that mass is, which is felt.
+inline physvib_body feltBall(double massKg = 2.0) {
     auto body = begun(physvib_body_init);
-    EXPECT_EQ(physvib_world_set_body(world, 0, &body), PHYSVIB_OK);
-    body.mass_kg = 2.0, body.is_camera = 1, body.frequency_hz = 200.0, body.decay_per_s = 30.0;
-    EXPECT_EQ(physvib_world_set_body(world, 1, &body), PHYSVIB_OK);
+    body.mass_kg = massKg;
+    body.is_camera = 1;
+    body.frequency_hz = 200.0;
+    body.decay_per_s = 30.0;
+    return body;
+}
+
+/// A floor (body 0) and such a ball (body 1).
+inline physvib_world worldOfABall(const physvib_world_settings* settings = nullptr, double massKg = 2.0) {
+    physvib_world world = nullptr;
+    EXPECT_EQ(physvib_world_create(settings, &world), PHYSVIB_OK) << physvib_error();
+    const physvib_body floor = begun(physvib_body_init), ball = feltBall(massKg);
+    EXPECT_EQ(physvib_world_set_body(world, 0, &floor), PHYSVIB_OK) << physvib_error();
+    EXPECT_EQ(physvib_world_set_body(world, 1, &ball), PHYSVIB_OK) << physvib_error();
+    return world;
+}
+
+/// The ball on the floor.
+inline physvib_contact touching(double impulse = PHYSVIB_UNKNOWN) {
     auto contact = begun(physvib_contact_init);
-    contact.a = 0, contact.b = 1;
-    for (int step = 0; step < 2 * steps; ++step) {
-        EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
-        contact.impulse_n_s = 1.0 + step;
-        if (step % 2 == 0) EXPECT_EQ(physvib_world_touch(world, &contact), PHYSVIB_OK) << physvib_error();
-        EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    contact.a = 0;
+    contact.b = 1;
+    contact.impulse_n_s = impulse;
+    return contact;
+}
+
+/// A step of 10 ms with that contact, if there is one; its code.
+inline int step(physvib_world world, const physvib_contact* contact = nullptr) {
+    EXPECT_EQ(physvib_world_begin_step(world, 0.01, 9.81), PHYSVIB_OK);
+    const int code = contact == nullptr ? PHYSVIB_OK : physvib_world_touch(world, contact);
+    EXPECT_EQ(physvib_world_end_step(world), PHYSVIB_OK);
+    return code;
+}
+
+/// That world, which has made an event in every other one of twice `steps` steps.
+inline physvib_world worldWithEvents(int steps) {
+    const physvib_world world = worldOfABall();
+    for (int i = 0; i < 2 * steps; i += 2) {
+        const physvib_contact contact = touching(1.0 + i);
+        EXPECT_EQ(step(world, &contact), PHYSVIB_OK) << physvib_error();
+        step(world);
     }
     return world;
 }

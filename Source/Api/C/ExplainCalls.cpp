@@ -12,13 +12,6 @@ using namespace physvib::api;
 
 namespace {
 
-int write(const std::string& sentence, char* text, size_t size) noexcept {
-    const std::size_t length = std::min(sentence.size(), size - 1);
-    std::copy_n(sentence.data(), length, text);
-    text[length] = '\0';
-    return static_cast<int>(sentence.size());
-}
-
 // Outputs count since they were opened; of another output than last time, all counts.
 std::uint64_t since(std::uint64_t& last, std::uint64_t now) noexcept {
     const std::uint64_t before = std::exchange(last, now);
@@ -35,7 +28,9 @@ int explain(physvib_world name, OutputFacts* output, char* text, size_t size) no
             output->withoutPart = since(world.withoutPart, output->withoutPart);
         }
         const ContactCounts recent = world.feed.takeRecent();
-        return write(physvib::explain(recent, world.feed.counts(), output), text, size);
+        const std::string sentence = physvib::explain(recent, world.feed.counts(), output);
+        copyText(sentence, {text, size});
+        return static_cast<int>(sentence.size());
     });
 }
 
@@ -88,13 +83,8 @@ int physvib_world_explain_output(physvib_world world, const physvib_output_facts
     physvib_output_facts taken;
     if (!take(facts, taken, physvib_output_facts_init)) return PHYSVIB_ERROR_ARGUMENT;
     if (!(taken.level >= 0.0)) return nothingThere("level: expected a gain of 0 or more");
-    physvib_renderer_settings settings;
     RendererSettings renderer;
-    if (taken.renderer != nullptr) {
-        if (!take(taken.renderer, settings, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const auto fault = convert(settings, renderer); !fault.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
-    }
+    if (taken.renderer != nullptr && !takeRenderer(taken.renderer, renderer)) return PHYSVIB_ERROR_ARGUMENT;
     const auto count = [](physvib_int64 told) {
         return static_cast<std::uint64_t>(std::max<physvib_int64>(told, 0));
     };
@@ -114,15 +104,13 @@ int physvib_world_explain_output(physvib_world world, const physvib_output_facts
 }
 
 int physvib_renderer_explain(physvib_renderer name, physvib_world world, char* text, size_t size) {
-    return guarded([&] {
-        const auto renderer = use(name);
-        if (!renderer) return unknownHandle();
+    return Renderers::all().in(name, [&](Renderer& renderer) {
         LastChanges changes;
         {
-            const std::lock_guard lock{renderer->producers};
-            changes = renderer->changes;
+            const std::lock_guard lock{renderer.producers};
+            changes = renderer.changes;
         }
-        OutputFacts output = outputOf(*renderer, changes);
+        OutputFacts output = outputOf(renderer, changes);
         return explain(world, &output, text, size);
     });
 }

@@ -20,10 +20,7 @@ int inOrder(std::string_view fault) noexcept {
 
 bool convert(const physvib_world_settings* from, ImpactSettings& to) {
     physvib_world_settings taken;
-    if (from == nullptr)
-        physvib_world_settings_init(&taken, sizeof taken);
-    else if (!take(from, taken, physvib_world_settings_init))
-        return false;
+    if (!takeOrBegin(from, taken, physvib_world_settings_init)) return false;
     for (const double number : {taken.field_x_m, taken.field_y_m, taken.field_radians})
         if (!(std::abs(number) <= 1.0e9)) return nothingThere("field: expected numbers"), false;
     to.fieldWidthMetres = taken.field_width_m;
@@ -39,7 +36,8 @@ bool convert(const physvib_world_settings* from, ImpactSettings& to) {
     to.fieldRadians = static_cast<float>(taken.field_radians);
     to.fullScaleNewtonSeconds = taken.full_scale_impulse_n_s;
     to.settlingSeconds = taken.settling_s;
-    return true;
+    // checked here, because without exceptions configure() could not release the lock
+    return resultOf(faultOf(to)) == PHYSVIB_OK;
 }
 
 HapticFixture fixtureOf(const physvib_body& body) {
@@ -98,9 +96,8 @@ int tell(physvib_world name, const physvib_contact* contact,
         const std::string_view fault = (world.feed.*call)(contactOf(taken));
         const int unknown = world.feed.counts().unknownBody;
         if (fault.starts_with("body:") && (unknown == taken.a || unknown == taken.b))
-            return fail(PHYSVIB_ERROR_ARGUMENT,
-                        "body " + std::to_string(unknown) +
-                            ": expected one that was set before its contacts (set_body)");
+            return nothingThere("body " + std::to_string(unknown) +
+                                ": expected one that was set before its contacts (set_body)");
         return inOrder(fault);
     });
 }
@@ -120,26 +117,16 @@ int physvib_world_create(const physvib_world_settings* settings, physvib_world* 
         *world = nullptr;
         ImpactSettings wanted;
         if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-        if (const std::string_view fault = faultOf(wanted); !fault.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
-        const std::uintptr_t name = worlds().add(std::make_unique<World>(wanted));
-        if (name == 0) return fail(PHYSVIB_ERROR_FULL, "worlds: expected at most 256");
-        *world = reinterpret_cast<physvib_world>(name);
-        return PHYSVIB_OK;
+        return Worlds::all().add(std::make_unique<World>(wanted), world, "worlds: expected at most 256");
     });
 }
 
-int physvib_world_free(physvib_world world) {
-    return worlds().remove(reinterpret_cast<std::uintptr_t>(world)) ? PHYSVIB_OK : unknownHandle();
-}
+int physvib_world_free(physvib_world world) { return Worlds::all().remove(world); }
 
 int physvib_world_configure(physvib_world name, const physvib_world_settings* settings) {
     return in(name, [&](World& world) {
         ImpactSettings wanted;
         if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-        // checked here, because without exceptions configure() could not release the lock
-        if (const std::string_view fault = faultOf(wanted); !fault.empty())
-            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         world.feed.configure(wanted);
         return PHYSVIB_OK;
     });
@@ -150,8 +137,8 @@ int physvib_world_set_body(physvib_world name, int body, const physvib_body* val
         physvib_body taken;
         if (!take(values, taken, physvib_body_init)) return PHYSVIB_ERROR_ARGUMENT;
         if (taken.voice < PHYSVIB_VOICE_OWN || taken.voice > PHYSVIB_VOICE_BOTH)
-            return fail(PHYSVIB_ERROR_ARGUMENT, "voice: expected one of PHYSVIB_VOICE_...");
-        if (taken.device < 0) return fail(PHYSVIB_ERROR_ARGUMENT, "device: expected 0 or more");
+            return nothingThere("voice: expected one of PHYSVIB_VOICE_...");
+        if (taken.device < 0) return nothingThere("device: expected 0 or more");
         const std::string_view fault =
             world.feed.set(body, {taken.mass_kg, taken.inertia_kg_m2, taken.gravity_scale}, fixtureOf(taken));
         if (fault.empty() && taken.device != 0)
@@ -219,7 +206,7 @@ int physvib_world_pair(physvib_world name, int surface, int other, double freque
 int physvib_world_begin_step(physvib_world name, double seconds, double gravity) {
     return in(name, [&](World& world) {
         if (!(seconds >= 0.0 && seconds <= longestStepSeconds))
-            return fail(PHYSVIB_ERROR_ARGUMENT, "step: expected 0 to 3600 s");
+            return nothingThere("step: expected 0 to 3600 s");
         return inOrder(world.feed.beginStep(world.feed.timeNs() + std::llround(seconds * 1.0e9), gravity));
     });
 }
@@ -263,7 +250,7 @@ physvib_int64 physvib_world_send(physvib_world name, physvib_renderer to, physvi
         const auto renderer = use(to);
         if (!renderer) return unknownHandle();
         if (laterNs < 0 || laterNs > limits::maxTimeNs / 2)
-            return fail(PHYSVIB_ERROR_ARGUMENT, "delay: expected 0 to 5 10^16 ns");
+            return nothingThere("delay: expected 0 to 5 10^16 ns");
         collect(world, atOnce != 0);
         physvib_int64 sent = 0;
         const std::lock_guard lock{renderer->producers};
@@ -292,7 +279,6 @@ int physvib_world_get_counts(physvib_world name, physvib_world_counts* counts) {
         const ContactCounts now = world.feed.counts();
         physvib_world_counts taken;
         if (!take(counts, taken, physvib_world_counts_init)) return PHYSVIB_ERROR_ARGUMENT;
-        const std::size_t size = counts->size; // of the caller's version
         const auto number = [](std::uint64_t count) { return static_cast<physvib_int64>(count); };
         taken.contacts = number(now.contacts);
         taken.below_threshold = number(now.belowThreshold);
@@ -302,6 +288,6 @@ int physvib_world_get_counts(physvib_world name, physvib_world_counts* counts) {
         taken.dropped = number(now.dropped);
         taken.events = number(now.events);
         taken.threshold_m_per_s = now.thresholdMetresPerSecond;
-        return begin(counts, size, taken);
+        return begin(counts, counts->size, taken);
     });
 }

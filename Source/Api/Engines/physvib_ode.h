@@ -53,24 +53,24 @@ PHYSVIB_UNUSED static double physvib_ode_mass(dGeomID geom) { /* 0: nothing move
     return mass.mass;
 }
 
-/* Reports mass, position and velocity of the geom's body. */
+/* Reports a body's motion; `turning`: as physvib_world_move_in_space has it. */
+PHYSVIB_UNUSED static void physvib_ode_motion(physvib_ode* ode, dBodyID body, int id, const double* turning) {
+    const dReal *at = dBodyGetPosition(body), *v = dBodyGetLinearVel(body), *turns = dBodyGetAngularVel(body);
+    const double centre[3] = {at[0], at[1], at[2]}, velocity[3] = {v[0], v[1], v[2]},
+                 spin[3] = {turns[0], turns[1], turns[2]};
+    physvib_ode_check(ode,
+                      ode->is_plane
+                          ? physvib_world_move(ode->world, id, at[0], at[1], v[0], v[1], turns[2])
+                          : physvib_world_move_in_space(ode->world, id, centre, velocity, spin, turning),
+                      physvib_error());
+}
+
+/* Reports mass and motion of the geom's body. How easily it turns does not matter, as ODE reports impulses.
+ */
 PHYSVIB_UNUSED static void physvib_ode_move(physvib_ode* ode, dGeomID geom) {
-    dBodyID body = dGeomGetBody(geom);
-    const dReal *at = body ? dBodyGetPosition(body) : NULL, *v = body ? dBodyGetLinearVel(body) : NULL;
     const int id = (int)(intptr_t)dGeomGetData(geom);
     physvib_ode_check(ode, physvib_world_set_mass(ode->world, id, physvib_ode_mass(geom)), physvib_error());
-    if (!body) return;
-    if (ode->is_plane) {
-        physvib_ode_check(
-            ode, physvib_world_move(ode->world, id, at[0], at[1], v[0], v[1], dBodyGetAngularVel(body)[2]),
-            physvib_error());
-    } else { /* how easily it turns does not matter, as ODE reports impulses */
-        const dReal* turns = dBodyGetAngularVel(body);
-        const double centre[3] = {at[0], at[1], at[2]}, velocity[3] = {v[0], v[1], v[2]},
-                     spin[3] = {turns[0], turns[1], turns[2]};
-        physvib_ode_check(ode, physvib_world_move_in_space(ode->world, id, centre, velocity, spin, NULL),
-                          physvib_error());
-    }
+    if (dGeomGetBody(geom)) physvib_ode_motion(ode, dGeomGetBody(geom), id, NULL);
 }
 
 /* Along the normal. `moved_s`: the length of a step that has moved the body since; its point moved with it.
@@ -166,17 +166,10 @@ PHYSVIB_UNUSED static void physvib_ode_turning(dBodyID body, double to[6]) {
 }
 
 PHYSVIB_UNUSED static void physvib_ode_soften(physvib_ode* ode, dBodyID body, int id) {
-    const dReal *at, *v, *turns;
     double turning[6];
     if (!body || ode->is_plane) return;
-    at = dBodyGetPosition(body), v = dBodyGetLinearVel(body), turns = dBodyGetAngularVel(body);
     physvib_ode_turning(body, turning);
-    {
-        const double centre[3] = {at[0], at[1], at[2]}, velocity[3] = {v[0], v[1], v[2]},
-                     spin[3] = {turns[0], turns[1], turns[2]};
-        physvib_ode_check(ode, physvib_world_move_in_space(ode->world, id, centre, velocity, spin, turning),
-                          physvib_error());
-    }
+    physvib_ode_motion(ode, body, id, turning);
 }
 
 /* The same, with what the surfaces are made of. A soft contact's impulse (dContactSoftERP or dContactSoftCFM

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "Api/Godot/Binding.h"
-#include "Api/Godot/Live.h"
+#include "Api/Godot/Outputs.h"
 
 #include <algorithm>
 #include <dlfcn.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // libphysvib-live is not built for Windows: its devices are refused, and what Godot itself drives plays on.
-#include "Api/Godot/Live.h"
+#include "Api/Godot/Outputs.h"
 
 namespace physvib::godot {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "Api/Godot/Outputs.h"
-#include "Api/Godot/Live.h"
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -5,6 +5,7 @@
 #include "Api/Godot/Binding.h"
 #include <array>
 #include <memory>
+#include <physvib/physvib-live.h>
 #include <physvib/physvib.h>
 #include <string>
 #include <vector>
@@ -23,7 +24,29 @@ private:
     Value peer; ///< Godot's PacketPeerUDP
 };
 
-class Live;
+/// An open device of libphysvib-live. That library is loaded when a world names a device, so that games that
+/// rumble only need none of what it needs.
+class Live {
+public:
+    Live() = default;
+    ~Live();
+    Live(const Live&) = delete;
+    Live& operator=(const Live&) = delete;
+
+    /// Returns the error; empty: it is open. Waits for the device. `sessionFile`: where all of its events are
+    /// written; empty: nowhere.
+    std::string open(const std::string& device, const physvib_layout& layout, double levelDb,
+                     double fieldWidthMetres, double fieldHeightMetres, const std::string& sessionFile);
+    void setLevel(double levelDb);
+    void play(physvib_world world, const physvib_event& event);
+    /// The peak that left for each of `actuators` in the last second, 1: full scale; empty: not all of it
+    /// left.
+    std::vector<double> left(int actuators) const;
+
+private:
+    physvib_live live = nullptr;
+    physvib_int64 startNs = 0; ///< session time of the world's time 0
+};
 
 /// Pulses of the two hands of an XR interface, in the hertz of what is felt. Each frame sends how strong the
 /// strongest hit still rings, so that a weak one never ends a strong one.

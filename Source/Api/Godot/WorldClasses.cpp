@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Properties and methods of HapticWorld2D and HapticWorld3D.
-#include "Api/Godot/WorldProperties.h"
 #include "Api/Godot/Worlds.h"
 #include <type_traits>
 

@@ -3,7 +3,6 @@
 // contacts. Nothing is written to Godot's physics.
 #include "Api/Godot/Worlds.h"
 #include "Api/Godot/Explanation.h"
-#include "Api/Godot/WorldProperties.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -129,6 +129,23 @@ private:
     Outputs outputs;
 };
 
+/// Places of the properties in their table.
+enum WorldProperty {
+    metresPerUnit,
+    fieldCorner,
+    fieldSize,
+    fieldFromCamera,
+    fullScale,
+    threshold,
+    physicsMaterials,
+    outputs,
+    layout,
+    actuators,
+    levelDb,
+    silent,
+    sessionFile
+};
+const std::vector<Property>& worldProperties(bool isSpace);
 extern const Class hapticWorld2dClass, hapticWorld3dClass;
 
 /// At a place of the field, along a unit normal from `a` to `b`; the rest is the caller's.
