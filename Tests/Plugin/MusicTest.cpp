@@ -374,18 +374,21 @@ TEST(SideChain, LHasRoomForTheDetectorOnlyWhereItListensAndStrikesAreNotDirect) 
     EXPECT_EQ(latencyOf(host), listening);
 }
 
-TEST(SideChain, AStateWithoutItsParameterLeavesItAtRest) {
+TEST(SideChain, AStateWithoutItsParameterLeavesItAtRestAndTimingSafe) {
     for (const int version : {1, 2, 3}) {
         SongHost host{quietState()};
         auto old = host.plugin->state();
-        std::erase_if(old.parameters, [](const auto& parameter) { return parameter.first == "beats"; });
+        std::erase_if(old.parameters,
+                      [](const auto& p) { return p.first == "beats" || p.first == "timing"; });
         host.listen();
+        host.setNormal(Parameter::timing, 1.0f);
         std::string text = pluginStateJson(old);
         const std::string now = "\"physvib_plugin_state\": ";
         text.replace(text.find(now), now.size() + 1, now + std::to_string(version));
         restore(*host.plugin, text);
         EXPECT_EQ(host.plugin->trouble(), "");
         EXPECT_EQ(host.plugin->parameter(Parameter::beats).value(), 0.0);
+        EXPECT_EQ(host.plugin->parameter(Parameter::timing).value(), 0.0) << "safe";
     }
 }
 

@@ -7,6 +7,7 @@
 #include "Scene/SceneFile.h"
 #include "Support/ClosedForm.h"
 #include <algorithm>
+#include <atomic>
 #include <gtest/gtest.h>
 #include <span>
 #include <thread>
@@ -199,6 +200,23 @@ public:
     std::unique_ptr<PluginProcessor> plugin;
     juce::AudioBuffer<float> buffer;
     int largest = 0;
+};
+
+/// What a host is told of an instance.
+struct HostNews final : juce::AudioProcessorListener {
+    explicit HostNews(PluginProcessor& about)
+        : plugin{about} {
+        plugin.addListener(this);
+    }
+    ~HostNews() override { plugin.removeListener(this); }
+    void audioProcessorParameterChanged(juce::AudioProcessor*, int, float) override { ++parameters; }
+    void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails& details) override {
+        latencies += details.latencyChanged ? 1 : 0;
+        edits += details.nonParameterStateChanged ? 1 : 0;
+        programs += details.programChanged ? 1 : 0;
+    }
+    PluginProcessor& plugin;
+    std::atomic<int> parameters{0}, latencies{0}, edits{0}, programs{0};
 };
 
 /// Many discs in one place, each touching each: steps that take long.
