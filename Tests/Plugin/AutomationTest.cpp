@@ -145,15 +145,12 @@ TEST(Automation, DISABLED_TenMinutes) {
 }
 
 TEST(Automation, ANoteHasTheLevelOfItsFrame) {
-    TestHost host;
     auto state = strikeAt(0, 1);
     state.limiterEnabled = false;
-    ASSERT_TRUE(host.plugin->apply(state));
-    host.prepare(48000, 4096);
+    TestHost host{state};
     PointSong song;
-    song.add(Parameter::strikeLevel, 0, 0.0);
-    song.add(Parameter::strikeLevel, 1000, 1.0);
-    song.add(Parameter::strikeLevel, 1001, 0.0);
+    for (const auto& [frame, normal] : {std::pair{0, 0.0}, {1000, 1.0}, {1001, 0.0}})
+        song.add(Parameter::strikeLevel, frame, normal);
     for (const auto& [frame, isFelt] : {std::pair{999, false}, {1000, true}, {1001, false}}) {
         host.prepare(48000, 4096);
         const auto signal =
@@ -171,20 +168,21 @@ TEST(Automation, SilenceClosesAtItsFrame) {
     song.add(Parameter::bypass, from, 1.0);
     host.prepare(48000, 4096);
     const auto shut = playedTo(host, song, {}, {4096}, 48000);
-    for (std::size_t c = 0; c < open.size(); ++c) {
-        EXPECT_TRUE(std::equal(open[c].begin(), open[c].begin() + 30000, shut[c].begin()));
-        EXPECT_TRUE(
-            std::all_of(shut[c].begin() + 30000 + 480, shut[c].end(), [](float x) { return x == 0.0f; }));
-    }
+    expectEqual(open, shut, 30000, "before");
+    EXPECT_EQ(peakOf(later(shut, 30480)), 0.0f);
     EXPECT_GT(peakOf(later(open, 30480)), 0.0f) << "there was something to silence";
+}
+
+PluginState heldTone() {
+    auto state = strikeAt(0, 1);
+    state.scene.materials[3].decayPerSecond = 0.05;
+    state.limiterEnabled = false;
+    return state;
 }
 
 /// A sine of the level that a host draws: a block's first and last frame, as VST3 lets it.
 Samples drawn(int block, std::int64_t frames) {
-    auto state = strikeAt(0, 1);
-    state.scene.materials[3].decayPerSecond = 0.05; // a held tone
-    state.limiterEnabled = false;
-    TestHost host{state};
+    TestHost host{heldTone()};
     host.prepare(48000, block);
     PointSong song;
     const auto levelAt = [](std::int64_t at) {
@@ -241,10 +239,7 @@ private:
 };
 
 Samples risingAndFalling(int block, std::int64_t frames) {
-    auto state = strikeAt(0, 1);
-    state.scene.materials[3].decayPerSecond = 0.05; // a held tone
-    state.limiterEnabled = false;
-    TestHost host{state};
+    TestHost host{heldTone()};
     host.prepare(48000, 4096); // one latency for all
     Samples signal(1);
     for (std::int64_t at = 0; at < frames; at += block) {
@@ -259,32 +254,26 @@ TEST(Automation, ALineToOneFrameBehindTheBlockIsTheSameInBlocksOfAnySize) {
     const std::int64_t frames = 3 * RisingAndFalling::period;
     const auto expected = risingAndFalling(512, frames);
     EXPECT_GT(peakOf(expected), 0.02f);
-    for (const int block : {64, 128, 1024, 4096}) {
+    for (const int block : {64, 128, 1024, 4096})
         expectEqual(expected, risingAndFalling(block, frames), frames, "blocks of " + std::to_string(block));
-    }
 }
 
 TEST(Automation, AMessageBehindTheBlocksEndIsPlayedAtItsLastFrameAndCounted) {
-    TestHost host, other;
-    for (auto* h : {&host, &other}) {
-        ASSERT_TRUE(h->plugin->apply(strikeAt(0, 1)));
-        h->prepare(48000, 256);
-    }
-    Samples a, b;
-    host.block(256, oneNote(60, 100, 256));
-    other.block(256, oneNote(60, 100, 255));
-    host.play(9600, a);
-    other.play(9600, b);
-    EXPECT_TRUE(a == b);
-    EXPECT_GT(peakOf(a), 0.05f);
-    EXPECT_EQ(host.plugin->displacedMessages(), 1u);
-    EXPECT_EQ(other.plugin->displacedMessages(), 0u);
+    const auto struckAt = [](int frame) {
+        TestHost host{strikeAt(0, 1)};
+        host.prepare(48000, 256);
+        host.block(256, oneNote(60, 100, frame));
+        return std::pair{host.played(9600), host.plugin->displacedMessages()};
+    };
+    const auto [behind, displaced] = struckAt(256);
+    EXPECT_TRUE(struckAt(255) == std::pair(behind, std::uint64_t{0}));
+    EXPECT_GT(peakOf(behind), 0.05f);
+    EXPECT_EQ(displaced, 1u);
 }
 
 // What automation says last is what is felt: however much of it there is, and however far the host's blocks
 // are from what it told.
 
-using namespace test;
 using Message = juce::MidiMessage;
 
 /// Enchanters in a line of an empty world, in blocks that are much smaller than announced: L is long,
@@ -301,7 +290,7 @@ struct AutomatedHost : TestHost {
     }
     void automate(Parameter which, int blocks) {
         for (int i = 0; i < blocks; ++i) {
-            plugin->parameter(which).setValue(0.3f + 0.5f * static_cast<float>(i % 101) / 101.0f);
+            setNormal(which, 0.3f + 0.5f * static_cast<float>(i % 101) / 101.0f);
             block(frames);
         }
     }
@@ -335,10 +324,10 @@ TEST_P(LevelAutomation, EndsAtItsLastValue) {
     const auto [channels, frames, blocks, rate] = GetParam();
     AutomatedHost host{channels, rate, frames};
     host.automate(Parameter::level, blocks);
-    host.plugin->parameter(Parameter::level).setValue(0.0f);
+    host.setNormal(Parameter::level, 0.0f);
     EXPECT_EQ(host.peakOfStrike(), 0.0f);
     host.automate(Parameter::level, blocks);
-    host.plugin->parameter(Parameter::level).setValue(1.0f);
+    host.setNormal(Parameter::level, 1.0f);
     EXPECT_GT(host.peakOfStrike(), 0.1f);
 }
 
@@ -356,12 +345,12 @@ INSTANTIATE_TEST_SUITE_P(Hosts, LevelAutomation,
 TEST(Controls, ALawThatIsAutomatedEndsAtItsLastValue) {
     AutomatedHost host{2, 48000.0, 16};
     host.automate(Parameter::exponent, 1500);
-    host.plugin->parameter(Parameter::exponent).setValue(0.0f);
+    host.setNormal(Parameter::exponent, 0.0f);
     const float low = host.peakOfStrike();
     AutomatedHost plain{2, 48000.0, 16};
-    plain.plugin->parameter(Parameter::exponent).setValue(0.0f);
+    plain.setNormal(Parameter::exponent, 0.0f);
     EXPECT_NEAR(low, plain.peakOfStrike(), 1e-6f);
-    plain.plugin->parameter(Parameter::exponent).setValue(1.0f);
+    plain.setNormal(Parameter::exponent, 1.0f);
     EXPECT_GT(std::abs(low - plain.peakOfStrike()), 1e-3f);
 }
 
@@ -380,9 +369,7 @@ TEST(Controls, AllSoundOffBehindMuchAutomationIsNotLost) {
     host.peakOfNext(host.latency);
     host.strike();
     host.automate(Parameter::level, 100);
-    juce::MidiBuffer midi;
-    midi.addEvent(Message::allSoundOff(1), 0);
-    host.block(64, midi);
+    host.block(64, oneMessage(Message::allSoundOff(1)));
     host.automate(Parameter::level, host.latency / 64);
     host.peakOfNext(480);
     EXPECT_EQ(host.peakOfNext(4800), 0.0f);

@@ -13,6 +13,19 @@ namespace {
 
 using namespace test;
 
+/// Notes on and off of a MIDI file, times in seconds; only what it says itself.
+std::vector<juce::MidiMessage> notesOf(const std::vector<CollisionEvent>& events, const PluginState& state) {
+    const std::string bytes = midiOf({events, state, pannerOf(state, PanningLaw::linear, 1.0)});
+    juce::MemoryInputStream stream{bytes.data(), bytes.size(), false};
+    juce::MidiFile file;
+    EXPECT_TRUE(file.readFrom(stream, false)); // else it adds what is missing
+    file.convertTimestampTicksToSeconds();
+    std::vector<juce::MidiMessage> notes;
+    for (const auto* event : *file.getTrack(0))
+        if (event->message.isNoteOnOrOff()) notes.push_back(event->message);
+    return notes;
+}
+
 /// The instrument of that name, and what hands do to it.
 class PlayedInstrument : public TestHost {
 public:
@@ -22,27 +35,15 @@ public:
         block(480);
     }
     void send(const juce::MidiMessage& message, int blocks) {
-        juce::MidiBuffer midi;
-        midi.addEvent(message, 0);
-        block(480, midi);
+        block(480, oneMessage(message));
         rest(blocks);
     }
     void rest(int blocks) {
         for (int b = 1; b < blocks; ++b) block(480);
     }
-    juce::MidiMessageSequence exported() {
+    std::vector<juce::MidiMessage> exported() {
         plugin->drainEvents();
-        const auto state = plugin->state();
-        const auto events = plugin->felt().events(true);
-        const std::string bytes = midiOf({events, state, pannerOf(state, PanningLaw::linear, 1.0)});
-        juce::MemoryInputStream stream{bytes.data(), bytes.size(), false};
-        juce::MidiFile file;
-        EXPECT_TRUE(file.readFrom(stream));
-        file.convertTimestampTicksToSeconds();
-        juce::MidiMessageSequence notes;
-        for (const auto* event : *file.getTrack(0))
-            if (event->message.isNoteOnOrOff()) notes.addEvent(event->message);
-        return notes;
+        return notesOf(plugin->felt().events(true), plugin->state());
     }
 };
 
@@ -52,15 +53,13 @@ TEST(FeltExport, NotesComeBackAsTheNotesThatWerePlayed) {
     host.send(juce::MidiMessage::noteOn(1, 43, juce::uint8{64}), 50);
     host.rest(50);
     const auto notes = host.exported();
-    ASSERT_EQ(notes.getNumEvents(), 4);
-    const auto& first = notes.getEventPointer(0)->message;
-    const auto& second = notes.getEventPointer(1)->message;
-    EXPECT_EQ(first.getNoteNumber(), 36);
-    EXPECT_EQ(first.getVelocity(), 127);
-    EXPECT_EQ(first.getTimeStamp(), 0.0);
-    EXPECT_EQ(second.getNoteNumber(), 43);
-    EXPECT_NEAR(second.getVelocity(), 64, 1);
-    EXPECT_NEAR(second.getTimeStamp(), 0.5, 1e-4);
+    ASSERT_EQ(notes.size(), 4u);
+    EXPECT_EQ(notes[0].getNoteNumber(), 36);
+    EXPECT_EQ(notes[0].getVelocity(), 127);
+    EXPECT_EQ(notes[0].getTimeStamp(), 0.0);
+    EXPECT_EQ(notes[1].getNoteNumber(), 43);
+    EXPECT_NEAR(notes[1].getVelocity(), 64, 1);
+    EXPECT_NEAR(notes[1].getTimeStamp(), 0.5, 1e-4);
 }
 
 TEST(FeltExport, AHeldNoteIsOneNoteAsLongAsItWasHeld) {
@@ -68,26 +67,19 @@ TEST(FeltExport, AHeldNoteIsOneNoteAsLongAsItWasHeld) {
     host.send(juce::MidiMessage::noteOn(1, 60, juce::uint8{100}), 80);
     host.send(juce::MidiMessage::noteOff(1, 60), 100);
     const auto notes = host.exported();
-    ASSERT_EQ(notes.getNumEvents(), 2) << "not one for each of its strikes";
-    EXPECT_EQ(notes.getEventPointer(0)->message.getNoteNumber(), 60);
-    EXPECT_NEAR(notes.getEventPointer(1)->message.getTimeStamp(), 0.8 + 0.4, 0.01) << "with its release";
+    ASSERT_EQ(notes.size(), 2u) << "not one for each of its strikes";
+    EXPECT_EQ(notes[0].getNoteNumber(), 60);
+    EXPECT_NEAR(notes[1].getTimeStamp(), 0.8 + 0.4, 0.01) << "with its release";
 }
 
 TEST(FeltExport, AStrikeOfASoundingNoteEndsItOnceAndLastsAsLongAsBoth) {
     PlayedInstrument host{"Bass"};
-    const auto state = host.plugin->state();
-    const auto notesOf = [&](const std::vector<CollisionEvent>& events) {
-        const std::string bytes = midiOf({events, state, pannerOf(state, PanningLaw::linear, 1.0)});
-        juce::MemoryInputStream stream{bytes.data(), bytes.size(), false};
-        juce::MidiFile file;
-        EXPECT_TRUE(file.readFrom(stream, false)); // else it adds what is missing
-        file.convertTimestampTicksToSeconds();
-        std::vector<std::pair<double, int>> notes; // velocity; 0: off
-        for (const auto* event : *file.getTrack(0))
-            if (event->message.isNoteOnOrOff())
-                notes.emplace_back(event->message.getTimeStamp(),
-                                   event->message.isNoteOn() ? event->message.getVelocity() : 0);
-        return notes;
+    using Velocities = std::vector<std::pair<double, int>>; // by time; 0: off
+    const auto velocitiesOf = [&](const std::vector<CollisionEvent>& events) {
+        Velocities all;
+        for (const auto& note : notesOf(events, host.plugin->state()))
+            all.emplace_back(note.getTimeStamp(), note.isNoteOn() ? note.getVelocity() : 0);
+        return all;
     };
     CollisionEvent first;
     first.frequencyHz = 110.0;
@@ -96,11 +88,10 @@ TEST(FeltExport, AStrikeOfASoundingNoteEndsItOnceAndLastsAsLongAsBoth) {
     CollisionEvent second = first;
     second.timeNs = 500'000'000;
     second.durationNs = 250'000'000;
-    const std::vector<std::pair<double, int>> expected{{0.0, 127}, {0.5, 0}, {0.5, 127}, {1.0, 0}};
-    EXPECT_EQ(notesOf({first, second}), expected);
-    EXPECT_EQ(notesOf({first, first}), (std::vector<std::pair<double, int>>{{0.0, 127}, {1.0, 0}}));
+    EXPECT_EQ(velocitiesOf({first, second}), (Velocities{{0.0, 127}, {0.5, 0}, {0.5, 127}, {1.0, 0}}));
+    EXPECT_EQ(velocitiesOf({first, first}), (Velocities{{0.0, 127}, {1.0, 0}}));
     first.amplitude = 0.0;
-    EXPECT_EQ(notesOf({first}), (std::vector<std::pair<double, int>>{{0.0, 1}, {1.0, 0}}));
+    EXPECT_EQ(velocitiesOf({first}), (Velocities{{0.0, 1}, {1.0, 0}}));
 }
 
 TEST(FeltExport, EndingsSayWhatIsWrittenAndOthersWriteNothing) {
@@ -218,8 +209,8 @@ TEST(Learning, TheNextControllerMovesTheParameterAndNoOther) {
 TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {
     const auto folder = juce::File::createTempFile("presets");
     PlayedInstrument maker{"MPE pad"};
-    maker.plugin->parameter(Parameter::level).setValue(1.0f); // 0 dB
-    maker.plugin->parameter(Parameter::music).setValue(1.0f); // 12 dB
+    maker.setNormal(Parameter::level, 1.0f); // 0 dB
+    maker.setNormal(Parameter::music, 1.0f); // 12 dB
     auto state = maker.plugin->state();
     state.editorWidth = 1500;
     state.editorHeight = 900;
@@ -228,9 +219,8 @@ TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {
     ASSERT_EQ(files.size(), 1u);
     EXPECT_EQ(files[0].getFileNameWithoutExtension(), "Mine");
     TestHost other;
-    auto now = newPluginState();
-    other.plugin->open(now);
-    now = other.plugin->state();
+    other.plugin->open(newPluginState());
+    const auto now = other.plugin->state();
     const auto opened = openFile(files[0].getFullPathName().toStdString(), now);
     ASSERT_TRUE(opened) << opened.error;
     EXPECT_EQ(opened.value.note, "Mine.json: lowered to this instance: master 0.0 to -12.0 dB; music");

@@ -50,10 +50,7 @@ TEST(Idle, DISABLED_FiftyInstancesSleepAndAreSmall) {
         all.push_back(std::make_unique<PluginProcessor>("PhysVib", BusPlan{}));
     const double made = (wakeUpsPerSecond() - none) / idleInstances;
     const double madeMegabytes = static_cast<double>(bytesInMemory() - before) / 1e6 / idleInstances;
-    for (auto& one : all) {
-        one->setRateAndBufferSizeDetails(48000, 512);
-        one->prepareToPlay(48000, 512);
-    }
+    for (auto& one : all) prepareBlocks(*one, 512);
     runFor(3.0); // until the threads have seen that nothing is rendered
     const double prepared = (wakeUpsPerSecond() - none) / idleInstances;
     const double preparedMegabytes = static_cast<double>(bytesInMemory() - before) / 1e6 / idleInstances;
@@ -69,8 +66,7 @@ TEST(Idle, DISABLED_FiftyInstancesSleepAndAreSmall) {
 std::unique_ptr<PluginProcessor> prepared(int preset) {
     auto one = std::make_unique<PluginProcessor>("PhysVib", BusPlan{});
     if (preset >= 0) one->setCurrentProgram(preset);
-    one->setRateAndBufferSizeDetails(48000, 512);
-    one->prepareToPlay(48000, 512);
+    prepareBlocks(*one, 512);
     return one;
 }
 
@@ -149,8 +145,6 @@ TEST(PluginMemory, OfAnInstanceByKind) {
 }
 
 // One thread for all: those of equal pace come in one waking, who renders nothing seldom, who has left never.
-
-using namespace test;
 
 struct Counted final : Stepped {
     explicit Counted(bool doesRender)
@@ -243,30 +237,17 @@ TEST(Stepper, DISABLED_FiftyInstances) {
 // A host that plays notes and automation for hours, in blocks that are not realtime: what the plug-in holds
 // does not grow. The ten hours are for Tests/ten-hours.sh.
 
-using namespace test;
-
-PluginState spawningState() {
-    PluginState state = shakenBox();
-    NoteRule spawn;
-    spawn.note = 62;
-    spawn.kind = NoteKind::spawn;
-    spawn.material = 1;
-    state.notes = {spawn};
-    return state;
-}
-
 struct Player {
     explicit Player(int rate) {
-        EXPECT_TRUE(host.plugin->apply(spawningState())) << host.plugin->trouble();
+        auto state = shakenBox();
+        state.notes = {{.note = 62, .kind = NoteKind::spawn, .material = 1}};
+        EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
         host.prepare(rate, 480);
     }
     void step(std::int64_t i) {
-        host.plugin->parameter(Parameter::tilt).setValue(static_cast<float>(i % 1000) / 1000.0f);
-        juce::MidiBuffer midi;
-        if (i % 20 == 0)
-            midi.addEvent(juce::MidiMessage::noteOn(1, 62, static_cast<juce::uint8>(1 + i % 127)),
-                          static_cast<int>(i % 480));
-        host.block(480, midi);
+        host.setNormal(Parameter::tilt, static_cast<float>(i % 1000) / 1000.0f);
+        const auto block = static_cast<int>(i % 480), velocity = static_cast<int>(1 + i % 127);
+        host.block(480, i % 20 == 0 ? oneNote(62, velocity, block) : juce::MidiBuffer{});
     }
     void look() {
         host.plugin->takes().drainLog();

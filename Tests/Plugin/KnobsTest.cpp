@@ -21,16 +21,13 @@ struct KnobHost : TestHost {
         : TestHost{state} {
         prepare(48000, 480);
     }
-    void turn(Parameter which, std::string_view to) {
-        const auto& row = rowOf(which);
-        plugin->parameter(which).setValue(static_cast<float>(normalised(row, valueOf(row, to))));
-    }
+    void turn(Parameter which, std::string_view to) { set(which, valueOf(rowOf(which), to)); }
     /// What is struck by that, as the log has it.
-    std::vector<CollisionEvent> struck(std::initializer_list<Message> messages, int frames = 9600) {
+    std::vector<CollisionEvent> struck(std::initializer_list<Message> messages) {
         juce::MidiBuffer midi;
         for (const auto& message : messages) midi.addEvent(message, 0);
         block(480, midi);
-        for (int b = 480; b < frames; b += 480) block(480);
+        for (int b = 1; b < 20; ++b) block(480);
         std::vector<CollisionEvent> events;
         for (const auto& event : plugin->takes().drainLog()) events.push_back(event.played.event);
         return events;
@@ -105,7 +102,7 @@ TEST(Knobs, AControllerMovesThemFromItsFrameOn) {
 /// Samples of a chord with bends, of a state as text.
 Samples knobChord(const std::string& text) {
     TestHost host;
-    for (const auto which : parameterTable::instrumentGroup) host.plugin->parameter(which).setValue(0.9f);
+    for (const auto which : parameterTable::instrumentGroup) host.setNormal(which, 0.9f);
     restore(*host.plugin, text);
     EXPECT_EQ(host.plugin->trouble(), "");
     host.prepare(48000, 480);
@@ -166,15 +163,10 @@ TEST(Knobs, AreKeptInAStateAndSetBackByAPreset) {
 }
 
 TEST(Knobs, ATailIsAsLongAsTheyMakeIt) {
-    auto state = knobPreset("Keys");
+    const auto state = knobPreset("Keys");
     const double usual = tailSeconds(state);
-    NoteKnobs longer;
-    longer.decay = 4.0;
-    EXPECT_NEAR(tailSeconds(state, longer), 4.0 * usual, 1e-9);
-    longer = {};
-    longer.hold = 2;
-    longer.release = 16.0;
-    EXPECT_GT(tailSeconds(state, longer), 3.0);
+    EXPECT_NEAR(tailSeconds(state, {.decay = 4.0}), 4.0 * usual, 1e-9);
+    EXPECT_GT(tailSeconds(state, {.release = 16.0, .hold = 2}), 3.0);
 }
 
 TEST(Knobs, TheWindowShowsThoseThatThePresetUses) {
@@ -185,21 +177,18 @@ TEST(Knobs, TheWindowShowsThoseThatThePresetUses) {
         for (; knob != nullptr && knob != &editor && knob->isVisible();) knob = knob->getParentComponent();
         return knob == &editor;
     };
-    const auto choose = [&](const char* name) { host.plugin->choose(presetPlace(name)); };
-    choose("Keys");
+    host.plugin->choose(presetPlace("Keys"));
     const auto editor = openEditor<PluginEditor>(*host.plugin);
     for (const char* const name :
          {"Decay", "Velocity curve", "Hold", "Placement", "Bend range", "Note material"})
         EXPECT_TRUE(shows(*editor, name)) << name;
     for (const char* const name : {"Release", "Gravity", "Tilt", "Material", "Timing"})
         EXPECT_FALSE(shows(*editor, name)) << name;
-    const auto& hold = rowOf(Parameter::hold);
-    host.plugin->parameter(Parameter::hold)
-        .setValue(static_cast<float>(normalised(hold, valueOf(hold, "on"))));
+    host.set(Parameter::hold, valueOf(rowOf(Parameter::hold), "on"));
     editor->refresh();
     EXPECT_TRUE(shows(*editor, "Release")) << "as soon as notes are held";
     EXPECT_FALSE(shows(*editor, "Decay"));
-    choose("marbles");
+    host.plugin->choose(presetPlace("marbles"));
     editor->refresh();
     for (const char* const name : {"Gravity", "Tilt", "Material", "Timing"})
         EXPECT_TRUE(shows(*editor, name)) << name;

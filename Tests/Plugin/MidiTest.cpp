@@ -11,10 +11,7 @@ using Message = juce::MidiMessage;
 /// An instance whose world makes no sound of its own.
 struct QuietHost : TestHost {
     QuietHost() {
-        auto state = plugin->state();
-        state.scene.bodies.clear();
-        state.scene.joints.clear();
-        state.scene.script.clear();
+        auto state = emptyBox();
         state.limiterEnabled = false;
         EXPECT_TRUE(plugin->apply(state));
         prepare(48000, 480);
@@ -29,7 +26,11 @@ struct QuietHost : TestHost {
         play(frames - 480, signal);
         return signal;
     }
-    std::vector<TakeEvent> log() { return plugin->takes().drainLog(); }
+    std::vector<CollisionEvent> log() {
+        std::vector<CollisionEvent> events;
+        for (const auto& event : plugin->takes().drainLog()) events.push_back(event.played.event);
+        return events;
+    }
     juce::MidiBuffer midi;
     int latency = 0;
 };
@@ -46,8 +47,8 @@ TEST(Midi, StrikesAreAtTheirFrameAndInTheLog) {
     EXPECT_NEAR(static_cast<double>(onsetOf(signal[0])), host.latency + 77, 1.0);
     const auto log = host.log();
     ASSERT_EQ(log.size(), 1u);
-    EXPECT_EQ(FrameClock{48000}.at(log[0].played.event.timeNs).frame, 77);
-    EXPECT_NEAR(log[0].played.event.amplitude, gainOfLevel(-6.0), 1e-6);
+    EXPECT_EQ(FrameClock{48000}.at(log[0].timeNs).frame, 77);
+    EXPECT_NEAR(log[0].amplitude, gainOfLevel(-6.0), 1e-6);
 }
 
 TEST(Midi, TheDefaultMapGoesFromLeftToRightAndThroughTheMaterials) {
@@ -56,11 +57,11 @@ TEST(Midi, TheDefaultMapGoesFromLeftToRightAndThroughTheMaterials) {
     host.playOn(9600);
     const auto log = host.log();
     ASSERT_EQ(log.size(), 4u);
-    EXPECT_EQ(log[0].played.event.x, 0.0);
-    EXPECT_GT(log[1].played.event.x, 0.0);
-    EXPECT_EQ(log[2].played.event.x, host.plugin->state().scene.fieldWidthMetres);
-    EXPECT_EQ(log[0].played.event.frequencyHz, log[2].played.event.frequencyHz);
-    EXPECT_NE(log[3].played.event.frequencyHz, log[2].played.event.frequencyHz);
+    EXPECT_EQ(log[0].x, 0.0);
+    EXPECT_GT(log[1].x, 0.0);
+    EXPECT_EQ(log[2].x, host.plugin->state().scene.fieldWidthMetres);
+    EXPECT_EQ(log[0].frequencyHz, log[2].frequencyHz);
+    EXPECT_NE(log[3].frequencyHz, log[2].frequencyHz);
 }
 
 TEST(Midi, BendSlideAndParametersMoveThePhantom) {
@@ -72,16 +73,16 @@ TEST(Midi, BendSlideAndParametersMoveThePhantom) {
     host.send(Message::noteOn(2, 36, juce::uint8{64}), 1);
     host.send(Message::noteOn(3, 36, juce::uint8{64}), 2); // another MPE channel is not bent
     host.playOn(9600);
-    host.plugin->parameter(Parameter::strikeX).setValue(1.0f);
+    host.setNormal(Parameter::strikeX, 1.0f);
     host.send(Message::noteOn(3, 36, juce::uint8{64}), 2);
     host.playOn(9600);
     const auto log = host.log();
     ASSERT_EQ(log.size(), 3u);
-    EXPECT_NEAR(log[0].played.event.x, 0.5 * width, 1e-3);
-    EXPECT_NEAR(log[0].played.event.y, 0.0, 1e-3);
-    EXPECT_NEAR(log[1].played.event.x, 0.0, 1e-9);
-    EXPECT_NEAR(log[1].played.event.y, 0.5 * height, 1e-9);
-    EXPECT_NEAR(log[2].played.event.x, width, 1e-3);
+    EXPECT_NEAR(log[0].x, 0.5 * width, 1e-3);
+    EXPECT_NEAR(log[0].y, 0.0, 1e-3);
+    EXPECT_NEAR(log[1].x, 0.0, 1e-9);
+    EXPECT_NEAR(log[1].y, 0.5 * height, 1e-9);
+    EXPECT_NEAR(log[2].x, width, 1e-3);
 }
 
 TEST(Midi, ControllersMoveParametersAndTheHostIsTold) {
@@ -107,8 +108,7 @@ TEST(Midi, ControllersMoveParametersAndTheHostIsTold) {
 
 TEST(Midi, NoControllerMovesANewInstance) {
     TestHost host; // with the safe level of a new instance
-    auto& level = host.plugin->parameter(Parameter::level);
-    level.setValue(level.getDefaultValue());
+    host.setToDefault(Parameter::level);
     host.prepare(48000, 480);
     const auto before = host.plugin->state();
     juce::MidiBuffer midi;
@@ -157,9 +157,7 @@ TEST(Midi, AllSoundOffIsSilenceAtOnceAndForWhatWasBefore) {
         for (auto* h : {&host, &other}) h->prepare(48000, size);
         const int latency = host.plugin->getLatencySamples();
         const int notes = (latency + 4800) / size; // ring, and wait
-        for (int i = 0; i < notes; ++i) {
-            host.block(size, oneNote(48 + i % 12, 100, i % size));
-        }
+        for (int i = 0; i < notes; ++i) host.block(size, oneNote(48 + i % 12, 100, i % size));
         Samples after, alone; // what came later is whole
         juce::MidiBuffer off;
         off.addEvent(Message::noteOn(1, 50, juce::uint8{100}), 10);
@@ -212,9 +210,7 @@ TEST(Midi, ATakeBeginsAtItsLevel) {
     Samples loud, quiet;
     for (auto* signal : {&loud, &quiet}) {
         QuietHost host;
-        if (signal == &quiet)
-            host.plugin->parameter(Parameter::level)
-                .setValue(host.plugin->parameter(Parameter::level).getDefaultValue());
+        if (signal == &quiet) host.setToDefault(Parameter::level);
         host.send(Message::noteOn(1, 60, juce::uint8{127}), 0);
         *signal = host.playOn(9600);
     }
@@ -251,11 +247,11 @@ struct SaidOfNotes final : NoteSource {
     }
 };
 
-/// Notes by their own pitch, in the middle, for as long as they are held.
-void prepareHeld(QuietHost& host) {
+/// Notes by their own pitch, in the middle, for as long as they are held, or decaying.
+void prepareVoice(QuietHost& host, bool isHeld) {
     auto state = host.plugin->state();
     state.notes.clear();
-    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle, .isHeld = true};
+    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle, .isHeld = isHeld};
     ASSERT_TRUE(host.plugin->apply(state));
     host.prepare(48000, 480);
 }
@@ -266,14 +262,14 @@ std::vector<CollisionEvent> struckBy(QuietHost& host, SaidOfNotes said, int bloc
     std::vector<CollisionEvent> struck;
     for (int b = 0; b < blocks + 10; ++b) { // and what is known later
         host.block(480);
-        for (const auto& event : host.log()) struck.push_back(event.played.event);
+        std::ranges::copy(host.log(), std::back_inserter(struck));
     }
     return struck;
 }
 
 TEST(Midi, WhatIsSaidOfANoteIsTrueOfItAlone) {
     QuietHost host;
-    prepareHeld(host);
+    prepareVoice(host, true);
     using enum NoteEvent::Kind;
     SaidOfNotes all;
     for (const int id : {1, 2, 3}) all.note(id, 0x90, 57); // one key, as three notes
@@ -308,11 +304,7 @@ TEST(Midi, WhatIsSaidOfANoteIsTrueOfItAlone) {
 
 TEST(Midi, ADecayingNoteHasWhatIsSaidAtItsOnset) {
     QuietHost host;
-    auto state = host.plugin->state();
-    state.notes.clear();
-    state.voice = {.pitch = NotePitch::note, .places = NotePlaces::middle};
-    ASSERT_TRUE(host.plugin->apply(state));
-    host.prepare(48000, 480);
+    prepareVoice(host, false);
     SaidOfNotes said;
     said.note(5, 0x90, 57, 127, 1.0);
     said.tell(5, NoteEvent::Kind::pan, -1.0), said.tell(5, NoteEvent::Kind::volume, 0.5);
@@ -327,13 +319,11 @@ TEST(Midi, ADecayingNoteHasWhatIsSaidAtItsOnset) {
 
 TEST(Midi, ABlockOfNoFramesIsHeard) {
     QuietHost host;
-    prepareHeld(host);
+    prepareVoice(host, true);
     SaidOfNotes on;
     on.note(-1, 0x90, 57);
     EXPECT_GT(struckBy(host, on).size(), 2u);
-    juce::MidiBuffer off;
-    off.addEvent(Message::noteOff(1, 57), 0);
-    host.block(0, off);
+    host.block(0, oneMessage(Message::noteOff(1, 57)));
     struckBy(host, {});
     EXPECT_TRUE(struckBy(host, {}).empty()) << "the key was let go while nothing was rendered";
 }
@@ -343,9 +333,7 @@ TEST(Midi, AProgramChangeChoosesThatPreset) {
     host.prepare(48000, 480, false);
     const int last = host.plugin->getNumPrograms() - 1;
     for (const int program : {last, 127, 9}) {
-        juce::MidiBuffer midi;
-        midi.addEvent(Message::programChange(1, program), 0);
-        host.block(480, midi);
+        host.block(480, oneMessage(Message::programChange(1, program)));
         const int expected = program == 127 ? last : program;
         for (int i = 0; i < 150 && (i < 10 || host.plugin->getCurrentProgram() != expected); ++i) {
             host.block(480); // who renders nothing is looked after every two seconds

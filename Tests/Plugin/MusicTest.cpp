@@ -30,16 +30,10 @@ inline PluginState quietState(bool isDirect = false) {
 /// A song at the side chain of an instance.
 class SongHost : public TestHost {
 public:
-    explicit SongHost(const PluginState& state) { EXPECT_TRUE(plugin->apply(state)); }
+    using TestHost::TestHost;
 
-    void turnOn(int channels = 2) {
-        auto layout = plugin->getBusesLayout();
-        layout.inputBuses.getReference(0) = channels == 0   ? juce::AudioChannelSet::disabled()
-                                            : channels == 1 ? juce::AudioChannelSet::mono()
-                                                            : juce::AudioChannelSet::stereo();
-        ASSERT_TRUE(plugin->setBusesLayout(layout));
-    }
-    void listen(float readiness = 0.5f) { plugin->parameter(Parameter::beats).setValue(readiness); }
+    void turnOn(int channels = 2) { ASSERT_TRUE(setSideChain(*plugin, channels)); }
+    void listen(float readiness = 0.5f) { setNormal(Parameter::beats, readiness); }
 
     /// One block of it, from frame `at` on; what is played is appended to `signal`.
     void feed(const BeatSong& song, int at, int frames, Samples& signal) {
@@ -120,18 +114,11 @@ public:
         turnOn();
         set(Parameter::music, levelDb);
     }
-    void set(Parameter which, double value) {
-        plugin->parameter(which).setValue(static_cast<float>(normalised(rowOf(which), value)));
-    }
     Samples feel(const BeatSong& song, SongBlocks blocks = {256}) { return felt(song, blocks, toneFrames); }
 };
 
 /// The largest of a channel's second half second: ramps and filters are over.
-float settled(const std::vector<float>& channel) {
-    float peak = 0.0f;
-    for (std::size_t i = 24'000; i < channel.size(); ++i) peak = std::max(peak, std::abs(channel[i]));
-    return peak;
-}
+float settled(const std::vector<float>& channel) { return peakOf(later({channel}, 24'000)); }
 
 TEST(Music, IsSilentUntilItIsTurnedUp) {
     MusicHost host{-60.0};
@@ -228,11 +215,9 @@ TEST(Music, ATakeBeginsWithSilenceAndEqualMusicFeelsEqual) {
     for (std::size_t i = 600; i < loop; ++i)
         unequal += one[latency + loop + i] == one[latency + 2 * loop + i] ? 0 : 1;
     EXPECT_EQ(unequal, 0u);
-    float step = 0.0f;
-    for (std::size_t i = latency; i + 1 < one.size(); ++i)
-        step = std::max(step, std::abs(one[i + 1] - one[i]));
     // the tone itself moves by 0.0085 a frame
-    EXPECT_LT(step, 0.02f) << "no click where one take ends and the next begins";
+    EXPECT_LT(largestStep(std::span{one}.subspan(latency)), 0.02f)
+        << "no click where one take ends and the next begins";
 }
 
 /// The first channel of half a second of a tone, All Sound Off, and another half: where in time it is felt.
@@ -242,12 +227,10 @@ std::vector<float> stoppedInTheMiddle(bool isDirect) {
     const BeatSong song = tone(130.0, 0.5f);
     Samples all;
     for (int at = 0; at < 24'000; at += 480) host.feed(song, at, 480, all);
-    juce::MidiBuffer midi;
-    midi.addEvent(juce::MidiMessage::allSoundOff(1), 0);
+    auto midi = oneMessage(juce::MidiMessage::allSoundOff(1));
     for (int c = 0; c < 4; ++c) host.buffer.copyFrom(c, 0, song.samples.data() + 24'000, 480);
     host.plugin->processBlock(host.buffer, midi);
-    const float* const block = host.buffer.getReadPointer(0);
-    all[0].insert(all[0].end(), block, block + 480);
+    append(all, host.buffer);
     for (int at = 24'480; at < 47'000; at += 480) host.feed(song, at, 480, all);
     return all[0];
 }
@@ -258,31 +241,16 @@ TEST(Music, AllSoundOffIsAPauseWithDirectAndWithoutAndWhatComesLaterIsFelt) {
         SCOPED_TRACE(isDirect);
         const auto felt = stoppedInTheMiddle(isDirect);
         const auto peak = [&](int from, int to) {
-            float most = 0.0f;
-            for (auto i = felt.begin() + from; i != felt.begin() + to; ++i)
-                most = std::max(most, std::abs(*i));
-            return most;
+            return peakOf(Samples{{felt.begin() + from, felt.begin() + to}});
         };
         EXPECT_GT(peak(23'000, 24'000), 0.4f);
         EXPECT_EQ(peak(24'000 + 47 + ramp, 24'000 + pause - 10), 0.0f);
         EXPECT_GT(peak(24'000 + pause + 47 + ramp, 24'000 + pause + 2'000), 0.4f);
-        float step = 0.0f;
-        for (std::size_t i = 23'000; i < 28'000; ++i) step = std::max(step, std::abs(felt[i] - felt[i - 1]));
-        EXPECT_LT(step, 0.02f) << "no click";
+        EXPECT_LT(largestStep(std::span{felt}.subspan(22'999, 5'001)), 0.02f) << "no click";
     }
 }
 
-TEST(Music, OfTwoPortsIsThereInABuildForThemAlone) {
-    const auto lv2 = juce::AudioProcessor::wrapperType_LV2;
-    EXPECT_TRUE(hasSideChain({BusPlan::Kind::oneBus, 4, true}, lv2));
-    PluginProcessor plugin{"PhysVib Music", {BusPlan::Kind::oneBus, 4, true}};
-    EXPECT_EQ(plugin.getTotalNumInputChannels(), 2);
-    EXPECT_EQ(plugin.getTotalNumOutputChannels(), 4);
-}
-
 // Music at the side chain strikes, at its times; live and bounced, in blocks of any size, the same.
-
-using namespace test;
 
 const BeatSong& song() {
     static const BeatSong made{3.0, songRateHz, 7};
@@ -328,15 +296,13 @@ TEST(SideChain, EachBeatIsFeltLAfterItOrDirectlyWhenItIsSureToBeKnown) {
         for (const auto& hit : song().hits) {
             if (hit.drum == Drum::kick || hit.seconds > 2.5) continue;
             ++hats;
-            const auto from = static_cast<std::int64_t>((hit.seconds - 0.02) * songRateHz) + delay,
+            const auto from = signal[3].begin() +
+                              static_cast<std::int64_t>((hit.seconds - 0.02) * songRateHz) + delay,
                        to = from + songRateHz * 40 / 1000;
-            std::int64_t first = -1; // the last enchanter is silent between high beats
-            for (std::int64_t i = from; i < to && first < 0; ++i)
-                if (std::abs(signal[3][static_cast<std::size_t>(i)]) > 2e-3f) first = i;
-            found +=
-                first >= 0 && std::abs(static_cast<double>(first - delay) / songRateHz - hit.seconds) <= 0.01
-                    ? 1
-                    : 0;
+            // the last enchanter is silent between high beats
+            const auto first = std::find_if(from, to, [](float x) { return std::abs(x) > 2e-3f; });
+            const auto at = static_cast<double>(first - signal[3].begin() - delay) / songRateHz;
+            found += first != to && std::abs(at - hit.seconds) <= 0.01 ? 1 : 0;
         }
         EXPECT_GE(found * 100, hats * 95) << isDirect;
     }
@@ -408,18 +374,21 @@ TEST(SideChain, LHasRoomForTheDetectorOnlyWhereItListensAndStrikesAreNotDirect) 
     EXPECT_EQ(latencyOf(host), listening);
 }
 
-TEST(SideChain, AStateWithoutItsParameterLeavesItAtRest) {
+TEST(SideChain, AStateWithoutItsParameterLeavesItAtRestAndTimingSafe) {
     for (const int version : {1, 2, 3}) {
         SongHost host{quietState()};
         auto old = host.plugin->state();
-        std::erase_if(old.parameters, [](const auto& parameter) { return parameter.first == "beats"; });
+        std::erase_if(old.parameters,
+                      [](const auto& p) { return p.first == "beats" || p.first == "timing"; });
         host.listen();
+        host.setNormal(Parameter::timing, 1.0f);
         std::string text = pluginStateJson(old);
         const std::string now = "\"physvib_plugin_state\": ";
         text.replace(text.find(now), now.size() + 1, now + std::to_string(version));
         restore(*host.plugin, text);
         EXPECT_EQ(host.plugin->trouble(), "");
         EXPECT_EQ(host.plugin->parameter(Parameter::beats).value(), 0.0);
+        EXPECT_EQ(host.plugin->parameter(Parameter::timing).value(), 0.0) << "safe";
     }
 }
 

@@ -20,6 +20,11 @@ protected:
         EXPECT_TRUE(file.replaceWithText(text));
         return file.getFullPathName().toStdString();
     }
+    OpenedFile open(const std::string& name, const std::string& text, const PluginState& state) {
+        auto opened = openFile(write(name, text), state);
+        EXPECT_TRUE(opened) << opened.error;
+        return std::move(opened.value);
+    }
     void SetUp() override { ASSERT_TRUE(folder_.createDirectory().wasOk()); }
     void TearDown() override { folder_.deleteRecursively(); }
     TestHost host_;
@@ -56,42 +61,35 @@ SavedSession sampleSession() {
 
 TEST_F(PluginFiles, ASceneIsPlayedAndNotesThatItHasNoMaterialForAreLeftOut) {
     auto state = host_.plugin->state();
-    NoteRule kept, lost;
-    kept.material = 1;
-    lost.note = 1;
-    lost.material = 2;
-    state.notes = {kept, lost};
+    state.notes = {{.note = 0, .material = 1}, {.note = 1, .material = 2}};
     Scene own = state.scene;
     own.name = "own";
     own.bodies.clear();
     own.joints.clear();
     own.script.clear();
     own.materials = {state.scene.materials[1]};
-    const auto opened = openFile(write("scene.json", sceneJson(own)), state);
-    ASSERT_TRUE(opened) << opened.error;
-    EXPECT_EQ(opened.value.state.scene.name, "own");
-    ASSERT_EQ(opened.value.state.notes.size(), 1u);
-    EXPECT_EQ(opened.value.state.notes[0].material, 0) << "the same, at its new place";
-    EXPECT_TRUE(host_.plugin->edit(opened.value.state));
+    const auto opened = open("scene.json", sceneJson(own), state);
+    EXPECT_EQ(opened.state.scene.name, "own");
+    ASSERT_EQ(opened.state.notes.size(), 1u);
+    EXPECT_EQ(opened.state.notes[0].material, 0) << "the same, at its new place";
+    EXPECT_TRUE(host_.plugin->edit(opened.state));
     EXPECT_EQ(host_.plugin->trouble(), "");
 }
 
 TEST_F(PluginFiles, ALayoutKeepsTheStripsOfThoseThatAreThere) {
     auto state = host_.plugin->state();
     state.strips[0].gainDb = -3.0;
-    const auto opened = openFile(write("layout.json", layoutJson(presetLayout("ring3"))), state);
-    ASSERT_TRUE(opened) << opened.error;
-    EXPECT_EQ(opened.value.state.layout.name, "ring3");
-    ASSERT_EQ(opened.value.state.strips.size(), 3u);
-    EXPECT_EQ(opened.value.state.strips[0].gainDb, -3.0);
+    const auto opened = open("layout.json", layoutJson(presetLayout("ring3")), state);
+    EXPECT_EQ(opened.state.layout.name, "ring3");
+    ASSERT_EQ(opened.state.strips.size(), 3u);
+    EXPECT_EQ(opened.state.strips[0].gainDb, -3.0);
 }
 
 TEST_F(PluginFiles, ASessionBringsItsDeskSeedActuatorsAndSteps) {
     const auto session = sampleSession();
-    const auto opened = openFile(write("session.json", sessionJson(session)), host_.plugin->state());
-    ASSERT_TRUE(opened) << opened.error;
-    EXPECT_EQ(opened.value.note, "session.json: lowered to this instance: the limiter stays on");
-    host_.plugin->open(opened.value.state);
+    const auto opened = open("session.json", sessionJson(session), host_.plugin->state());
+    EXPECT_EQ(opened.note, "session.json: lowered to this instance: the limiter stays on");
+    host_.plugin->open(opened.state);
     ASSERT_EQ(host_.plugin->trouble(), "");
     const auto now = host_.plugin->state();
     EXPECT_EQ(now.scene.name, "drop");
@@ -114,38 +112,33 @@ TEST_F(PluginFiles, NoFileMakesAnythingLouder) {
     session.limiterEnabled = true;
     session.mix->levelDb = -1.0;
     session.mix->strips[0].gainDb = 6.0;
-    auto& level = host_.plugin->parameter(Parameter::level);
-    level.setValue(level.getDefaultValue());
+    host_.setToDefault(Parameter::level);
     auto state = host_.plugin->state();
     ASSERT_EQ(state.strips.size(), 4u);
     state.strips[0].ceilingDb = -20.0;
     state.strips[1].isMuted = true;
-    const auto opened = openFile(write("session.json", sessionJson(session)), state);
-    ASSERT_TRUE(opened) << opened.error;
-    EXPECT_EQ(opened.value.note, "session.json: lowered to this instance: master -1.0 to -12.0 dB; A gain "
-                                 "6.0 to 0.0 dB; A ceiling 0.0 to -20.0 dB; B muted");
-    host_.plugin->open(opened.value.state);
+    const auto opened = open("session.json", sessionJson(session), state);
+    EXPECT_EQ(opened.note, "session.json: lowered to this instance: master -1.0 to -12.0 dB; A gain "
+                           "6.0 to 0.0 dB; A ceiling 0.0 to -20.0 dB; B muted");
+    host_.plugin->open(opened.state);
     EXPECT_NEAR(host_.plugin->parameter(Parameter::level).value(), -12.0, 1e-4);
     EXPECT_EQ(host_.plugin->state().strips[0].ceilingDb, -20.0);
     EXPECT_TRUE(host_.plugin->state().strips[1].isMuted);
     state.strips[1].isMuted = false;
     usePreset(state, "phone2");
-    const auto wider = openFile(write("layout.json", layoutJson(presetLayout("phone4"))), state);
-    ASSERT_TRUE(wider) << wider.error;
-    EXPECT_EQ(wider.value.note,
-              "layout.json: lowered to this instance: C without output 3; D without output 4");
-    ASSERT_EQ(wider.value.state.strips.size(), 4u);
+    const auto wider = open("layout.json", layoutJson(presetLayout("phone4")), state);
+    EXPECT_EQ(wider.note, "layout.json: lowered to this instance: C without output 3; D without output 4");
+    ASSERT_EQ(wider.state.strips.size(), 4u);
     for (std::size_t j = 0; j < 4; ++j)
-        EXPECT_EQ(wider.value.state.strips[j].isMuted, j > 1) << "nothing was felt there: " << j;
+        EXPECT_EQ(wider.state.strips[j].isMuted, j > 1) << "nothing was felt there: " << j;
 }
 
 TEST_F(PluginFiles, WhatOfASessionIsNotPlayedIsSaid) {
     auto session = sampleSession();
     session.limiterEnabled = true;
     session.shaping.gain = 2.0;
-    const auto opened = openFile(write("session.json", sessionJson(session)), host_.plugin->state());
-    ASSERT_TRUE(opened) << opened.error;
-    EXPECT_EQ(opened.value.note, "session.json: its method, timing and recordings are not played here");
+    const auto opened = open("session.json", sessionJson(session), host_.plugin->state());
+    EXPECT_EQ(opened.note, "session.json: its method, timing and recordings are not played here");
 }
 
 TEST_F(PluginFiles, WhatIsWrongIsNamed) {

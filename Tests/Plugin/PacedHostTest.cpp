@@ -52,16 +52,11 @@ PluginState busy() {
 /// Notes that drop discs and push, beside those that strike.
 PluginState playedWorld() {
     auto state = busy();
-    NoteRule spawn, push;
-    spawn.note = 62;
-    spawn.kind = NoteKind::spawn;
-    spawn.material = 1;
-    spawn.atFullVelocity = {1.0, -2.0};
-    push.note = 64;
-    push.kind = NoteKind::push;
-    push.object = state.scene.bodies.back().name;
-    push.atFullVelocity = {0.2, 0.1};
-    state.notes = {spawn, push};
+    state.notes = {{.note = 62, .kind = NoteKind::spawn, .material = 1, .atFullVelocity = {1.0, -2.0}},
+                   {.note = 64,
+                    .kind = NoteKind::push,
+                    .object = state.scene.bodies.back().name,
+                    .atFullVelocity = {0.2, 0.1}}};
     return state;
 }
 
@@ -80,20 +75,21 @@ std::vector<Lie> lies() {
     const auto steady = [](int) { return 512; };
     const auto any = [](int i) { return 1 + i * 7919 % 4096; };
     const auto paced = [](int) { return 1.0; };
-    return {{"calls a bounce live", never, steady, [](int) { return 0.0; }},
+    const auto atOnce = [](int) { return 0.0; };
+    const auto inTurn = [](int i) { return i / 7 % 2 == 1; };
+    return {{"calls a bounce live", never, steady, atOnce},
             {"calls live a bounce", always, steady, paced},
-            {"cannot decide", [](int i) { return i / 7 % 2 == 1; }, steady, paced},
-            {"cannot decide, ahead of time", [](int i) { return i / 7 % 2 == 1; }, steady,
-             [](int) { return 0.0; }},
+            {"cannot decide", inTurn, steady, paced},
+            {"cannot decide, ahead of time", inTurn, steady, atOnce},
             {"goes a tenth faster", never, steady, [](int) { return 0.9; }},
             {"goes thirty times faster", never, steady, [](int) { return 1.0 / 30.0; }},
             {"goes three times slower", never, steady, [](int) { return 3.0; }},
             {"comes in bursts of 20", never, steady, [](int i) { return i % 20 == 19 ? 20.0 : 0.0; }},
             {"is half a second ahead", never, steady, [](int i) { return i < 47 ? 0.0 : 1.0; }},
             {"takes blocks of any size", never, any, paced},
-            {"takes blocks of any size, ahead of time", never, any, [](int) { return 0.0; }},
+            {"takes blocks of any size, ahead of time", never, any, atOnce},
             {"is silent now and then", never, steady, paced, 5'000'000'000},
-            {"is silent now and then, ahead of time", never, steady, [](int) { return 0.0; }, 5'000'000'000},
+            {"is silent now and then, ahead of time", never, steady, atOnce, 5'000'000'000},
             {"stutters", never, steady, [](int i) { return i % 30 == 0   ? 12.0
                                                            : i % 30 < 12 ? 0.0
                                                                          : 1.0; }}};
@@ -119,7 +115,7 @@ constexpr std::int64_t length = 4 * 48000;
 /// What is felt of that song, the told latency taken out.
 template <class Host>
 Samples feltOf(Host& host, const Lie& lie, bool isTight) {
-    host.plugin->parameter(Parameter::timing).setValue(isTight ? 1.0f : 0.0f);
+    host.setNormal(Parameter::timing, isTight ? 1.0f : 0.0f);
     host.prepare(48000, 512, lie.saysOffline(0));
     const int latency = host.plugin->getLatencySamples();
     Samples signal(4);
@@ -142,12 +138,15 @@ Samples feltOf(Host& host, const Lie& lie, bool isTight) {
     return signal;
 }
 
+Samples bounceOf(const PluginState& state, bool isTight) {
+    TestHost host{state};
+    return feltOf(host, {"", [](int) { return true; }, [](int) { return 512; }, {}}, isTight);
+}
+
 void expectTheBounce(PluginState state, const char* what) {
     state.controllers = {{20, "strike_x"}};
     for (const bool isTight : {false, true}) {
-        TestHost bounces{state};
-        const auto bounce =
-            feltOf(bounces, {"", [](int) { return true; }, [](int) { return 512; }, {}}, isTight);
+        const auto bounce = bounceOf(state, isTight);
         EXPECT_GT(peakOf(bounce), 0.01f) << what;
         for (const auto& lie : lies()) {
             SCOPED_TRACE(std::string{what} + (isTight ? ", tight: " : ": ") + lie.name);
@@ -164,11 +163,8 @@ TEST(LyingHost, NotesAreTheBounce) {
 TEST(LyingHost, DirectNotesBesideAWorldAreTheBounce) {
     auto state = playedWorld();
     state.isDirect = true;
-    TestHost bounces{state};
-    const Lie bounce{"", [](int) { return true; }, [](int) { return 512; }, {}};
-    const auto expected = feltOf(bounces, bounce, false);
     PacedHost host{state};
-    EXPECT_TRUE(feltOf(host, lies().front(), false) == expected);
+    EXPECT_TRUE(feltOf(host, lies().front(), false) == bounceOf(state, false));
 }
 
 TEST(PacedHost, TheEditorSaysWhatIsFeltWhen) {
@@ -237,7 +233,7 @@ TEST(PacedHost, NoCallStepsMoreThanItsOwnFramesAndTheLatencyOfAWorldThatIsFarToo
     constexpr int calls = 50;
     for (const bool isTight : {false, true}) {
         PacedHost host{absurdlyHeavy()};
-        host.plugin->parameter(Parameter::timing).setValue(isTight ? 1.0f : 0.0f);
+        host.setNormal(Parameter::timing, isTight ? 1.0f : 0.0f);
         host.prepare(48000, 2048, false);
         const auto editor = openEditor<PluginEditor>(*host.plugin);
         editor->refresh();
@@ -266,7 +262,7 @@ TEST(PacedHost, NoCallStepsMoreThanItsOwnFramesAndTheLatencyOfAWorldThatIsFarToo
                 << editor->statusText();
         }
         TestHost offline{absurdlyHeavy()};
-        offline.plugin->parameter(Parameter::timing).setValue(isTight ? 1.0f : 0.0f);
+        offline.setNormal(Parameter::timing, isTight ? 1.0f : 0.0f);
         offline.prepare(48000, 2048);
         offline.play(length, bounce);
         EXPECT_TRUE(signal == bounce);

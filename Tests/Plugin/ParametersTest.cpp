@@ -25,26 +25,26 @@ TEST(Parameters, IdsArePromises) { // a change here breaks every saved session o
 // Hosts keep what they automate from 0 to 1: a choice that moves becomes another one in every project. How
 // choices can still be added: decision 34.
 TEST(Parameters, PlacesOfChoicesArePromises) {
-    const auto placeOf = [](Parameter p, std::string_view word) {
-        return normalised(rowOf(p), valueOf(rowOf(p), word));
+    struct Places {
+        Parameter which;
+        std::vector<std::string_view> words; // at 0, 1, 2, ...; empty: none of these
+        double of;                           // that many make 1
     };
-    for (int i = 0; const auto word : {"linear", "log", "log-outer", "energy"})
-        EXPECT_DOUBLE_EQ(placeOf(Parameter::law, word), i++ / 3.0) << word;
-    for (int i = 1; const auto word : {"neighbours", "auto", "distance"})
-        EXPECT_DOUBLE_EQ(placeOf(Parameter::law, word), (i += 2, i - 2) / 6.0) << word;
-    EXPECT_DOUBLE_EQ(placeOf(Parameter::law, "triangles"), 1.0 / 12.0);
-    for (int i = 0; const auto word : {"as the scene", "1", "2", "3", "4", "5", "6", "7", "8"})
-        EXPECT_DOUBLE_EQ(placeOf(Parameter::material, word), i++ / 8.0) << word;
-    for (int i = 0; const auto word : {"off", "on"})
-        EXPECT_DOUBLE_EQ(placeOf(Parameter::bypass, word), i++) << word;
-    for (int i = 0; const auto word : {"as the preset", "off", "on"})
-        EXPECT_DOUBLE_EQ(placeOf(Parameter::hold, word), i++ / 2.0) << word;
-    for (int i = 0; const auto word : {"as the preset", "octave", "actuators", "middle"})
-        EXPECT_DOUBLE_EQ(placeOf(Parameter::placement, word), i++ / 3.0) << word;
-    for (int i = 0;
-         const auto word : {"as the preset", "moves the place", "1 semitone", "2 semitones", "5 semitones",
-                            "7 semitones", "12 semitones", "24 semitones", "48 semitones"})
-        EXPECT_DOUBLE_EQ(placeOf(Parameter::bendRange, word), i++ / 8.0) << word;
+    for (const auto& [which, words, of] : std::initializer_list<Places>{
+             {Parameter::law, {"linear", "log", "log-outer", "energy"}, 3.0},
+             {Parameter::law, {"", "neighbours", "", "auto", "", "distance"}, 6.0},
+             {Parameter::law, {"", "triangles"}, 12.0},
+             {Parameter::material, {"as the scene", "1", "2", "3", "4", "5", "6", "7", "8"}, 8.0},
+             {Parameter::bypass, {"off", "on"}, 1.0},
+             {Parameter::hold, {"as the preset", "off", "on"}, 2.0},
+             {Parameter::placement, {"as the preset", "octave", "actuators", "middle"}, 3.0},
+             {Parameter::bendRange,
+              {"as the preset", "moves the place", "1 semitone", "2 semitones", "5 semitones", "7 semitones",
+               "12 semitones", "24 semitones", "48 semitones"},
+              8.0}})
+        for (int i = 0; const auto word : words)
+            if (const int place = i++; !word.empty())
+                EXPECT_DOUBLE_EQ(normalised(rowOf(which), valueOf(rowOf(which), word)), place / of) << word;
 }
 
 // Else a session of an older version would not sound as it did.

@@ -7,7 +7,9 @@
 #include "Scene/SceneFile.h"
 #include "Support/ClosedForm.h"
 #include <algorithm>
+#include <atomic>
 #include <gtest/gtest.h>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -74,10 +76,38 @@ inline Samples later(const Samples& signal, std::int64_t frames) {
     return rest;
 }
 
-inline juce::MidiBuffer oneNote(int note, int velocity = 127, int frame = 0) {
+inline juce::MidiBuffer oneMessage(const juce::MidiMessage& message, int frame = 0) {
     juce::MidiBuffer midi;
-    midi.addEvent(juce::MidiMessage::noteOn(1, note, static_cast<juce::uint8>(velocity)), frame);
+    midi.addEvent(message, frame);
     return midi;
+}
+inline juce::MidiBuffer oneNote(int note, int velocity = 127, int frame = 0) {
+    return oneMessage(juce::MidiMessage::noteOn(1, note, static_cast<juce::uint8>(velocity)), frame);
+}
+
+/// The largest change from one sample to the next.
+inline float largestStep(std::span<const float> signal) {
+    float step = 0.0f;
+    for (std::size_t n = 1; n < signal.size(); ++n)
+        step = std::max(step, std::abs(signal[n] - signal[n - 1]));
+    return step;
+}
+
+/// A side chain of so many channels, 0 to 2.
+inline bool setSideChain(juce::AudioProcessor& plugin, int channels) {
+    auto layout = plugin.getBusesLayout();
+    layout.inputBuses.getReference(0) = channels == 0   ? juce::AudioChannelSet::disabled()
+                                        : channels == 1 ? juce::AudioChannelSet::mono()
+                                                        : juce::AudioChannelSet::stereo();
+    return plugin.setBusesLayout(layout);
+}
+
+/// Ready for blocks of that size, and a buffer for them.
+inline juce::AudioBuffer<float> prepareBlocks(juce::AudioProcessor& plugin, int block,
+                                              double rate = 48000.0) {
+    plugin.setRateAndBufferSizeDetails(rate, block);
+    plugin.prepareToPlay(rate, block);
+    return {std::max({1, plugin.getTotalNumInputChannels(), plugin.getTotalNumOutputChannels()}), block};
 }
 
 /// What a host saves, and what it gives back.
@@ -102,16 +132,24 @@ inline PluginState shakenBox() {
     return state;
 }
 
+/// The same without anything in it.
+inline PluginState emptyBox() {
+    PluginState state = shakenBox();
+    state.scene.bodies.clear();
+    state.scene.joints.clear();
+    state.scene.script.clear();
+    return state;
+}
+
 class TestHost {
 public:
     explicit TestHost(BusPlan plan = {}) {
         plugin = std::make_unique<PluginProcessor>("PhysVib", plan);
         plugin->setPlayHead(&playHead);
         EXPECT_TRUE(plugin->apply(shakenBox()));
-        for (const auto& row : allParameters())
-            plugin->parameter(row.parameter).setValue(static_cast<float>(normalised(row, row.initial)));
-        plugin->parameter(Parameter::level).setValue(1.0f);                // 0 dB, to compare with renders
-        plugin->parameter(Parameter::strikeLevel).setValue(54.0f / 72.0f); // -6 dB
+        for (const auto& row : allParameters()) set(row.parameter, row.initial);
+        setNormal(Parameter::level, 1.0f);                // 0 dB, to compare with renders
+        setNormal(Parameter::strikeLevel, 54.0f / 72.0f); // -6 dB
     }
     explicit TestHost(const PluginState& state)
         : TestHost{} {
@@ -122,11 +160,15 @@ public:
     void prepare(double rate, int block, bool offline = true) {
         largest = block;
         plugin->setNonRealtime(offline);
-        plugin->setRateAndBufferSizeDetails(rate, block);
-        plugin->prepareToPlay(rate, block);
-        buffer.setSize(std::max({1, plugin->getTotalNumInputChannels(), plugin->getTotalNumOutputChannels()}),
-                       block);
+        buffer = prepareBlocks(*plugin, block, rate);
     }
+
+    /// As a host moves it: from 0 to 1, in its unit, to its default.
+    void setNormal(Parameter which, float normal) { plugin->parameter(which).setValue(normal); }
+    void set(Parameter which, double value) {
+        setNormal(which, static_cast<float>(normalised(rowOf(which), value)));
+    }
+    void setToDefault(Parameter which) { set(which, rowOf(which).initial); }
 
     /// One block of any size; what it played.
     juce::AudioBuffer<float>& block(int frames, juce::MidiBuffer midi = {}) {
@@ -160,40 +202,44 @@ public:
     int largest = 0;
 };
 
+/// What a host is told of an instance.
+struct HostNews final : juce::AudioProcessorListener {
+    explicit HostNews(PluginProcessor& about)
+        : plugin{about} {
+        plugin.addListener(this);
+    }
+    ~HostNews() override { plugin.removeListener(this); }
+    void audioProcessorParameterChanged(juce::AudioProcessor*, int, float) override { ++parameters; }
+    void audioProcessorChanged(juce::AudioProcessor*, const ChangeDetails& details) override {
+        latencies += details.latencyChanged ? 1 : 0;
+        edits += details.nonParameterStateChanged ? 1 : 0;
+        programs += details.programChanged ? 1 : 0;
+    }
+    PluginProcessor& plugin;
+    std::atomic<int> parameters{0}, latencies{0}, edits{0}, programs{0};
+};
+
 /// Many discs in one place, each touching each: steps that take long.
 inline PluginState heap(int discs) {
-    PluginState state = shakenBox();
+    PluginState state = emptyBox();
     Scene& scene = state.scene;
-    scene.joints.clear();
-    scene.script.clear();
-    scene.bodies.clear();
     for (int i = 0; i < discs; ++i) {
         BodyDescription& body = scene.bodies.emplace_back();
         body.name = "disc " + std::to_string(i);
         body.positionMetres = {scene.fieldWidthMetres / 2, scene.fieldHeightMetres / 2};
-        FixtureDescription& fixture = body.fixtures.emplace_back();
-        fixture.material = 3;
-        fixture.isCamera = true;
-        fixture.shape = CircleShape{0.2};
+        body.fixtures.push_back({CircleShape{0.2}, {}, 0.0, 3, true});
     }
     return state;
 }
 
 /// Nothing but n enchanters in a line; note 60 strikes at enchanter j.
 inline PluginState strikeAt(int j, int n) {
-    PluginState s = shakenBox();
-    s.scene.bodies.clear();
-    s.scene.joints.clear();
-    s.scene.script.clear();
+    PluginState s = emptyBox();
     EnchanterLayout line{n > 1 ? n - 1.0 : 1.0, 1.0, n, {}};
     for (int i = 0; i < n; ++i) line.places[static_cast<std::size_t>(i)] = {static_cast<double>(i), 0.0};
     s.layout = describeLayout("line", line);
-    NoteRule strike;
-    strike.note = 60;
-    strike.material = 3; // the first that vibrates
-    strike.x = n > 1 ? j / (n - 1.0) : 0.0;
-    strike.y = 0.0;
-    s.notes = {strike};
+    // the first material that vibrates
+    s.notes = {{.note = 60, .material = 3, .x = n > 1 ? j / (n - 1.0) : 0.0, .y = 0.0}};
     return s;
 }
 

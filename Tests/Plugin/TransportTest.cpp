@@ -134,15 +134,12 @@ TEST(Transport, TwentyTakesOfALoopHaveEqualEventsAndSamples) {
 constexpr double rateHz = 48000;
 
 /// Discs that rain on a floor, one every half second from 0.5 s on: at 120 a minute one on each beat.
-PluginState rain(TransportMode transport = TransportMode::inTempo) {
-    PluginState s = shakenBox();
-    s.transport = transport;
+PluginState rain() {
+    PluginState s = emptyBox();
+    s.transport = TransportMode::inTempo;
     s.stepsPerSecond = 1000;
     s.seed = 0;
     auto& scene = s.scene;
-    scene.joints.clear();
-    scene.script.clear();
-    scene.bodies.clear();
     scene.gravityMetresPerSecond2 = {};
     const auto bodyOf = [](std::string name, BodyType type, Shape shape, Vector place) {
         BodyDescription body;
@@ -167,17 +164,17 @@ struct Played {
     std::uint64_t delayed = 0;   // blocks that waited for a take
 };
 
-/// Of a transport that starts at that beat; `change(host, block)` comes before each block.
-template <class Change>
-Played playedBy(const PluginState& state, double perMinute, double quarter, bool offline, int frames,
-                Change change, double forSeconds = 3.0) {
+/// Three seconds of a transport that starts at that beat; `change(host, block)` comes before each block.
+Played playedBy(
+    const PluginState& state, double perMinute, double quarter = 0.0, bool offline = true, int frames = 480,
+    void (*change)(TestHost&, int) = [](TestHost&, int) {}) {
     TestHost host{state};
     host.prepare(rateHz, frames, offline);
     host.playHead.isThere = host.playHead.isPlaying = true;
     host.playHead.perMinute = perMinute;
     host.playHead.quarter = quarter;
     Played played;
-    const int blocks = static_cast<int>(forSeconds * rateHz) / frames;
+    const int blocks = static_cast<int>(3.0 * rateHz) / frames;
     for (int b = 0; b < blocks; ++b) {
         change(host, b);
         host.play(frames, played.samples);
@@ -189,10 +186,6 @@ Played playedBy(const PluginState& state, double perMinute, double quarter, bool
             played.seconds.empty() || at > played.seconds.back() + 0.05)
             played.seconds.push_back(at);
     return played;
-}
-Played playedBy(const PluginState& state, double perMinute, double quarter = 0.0, bool offline = true,
-                int frames = 480) {
-    return playedBy(state, perMinute, quarter, offline, frames, [](TestHost&, int) {});
 }
 
 void expectTimes(const Played& played, const std::vector<double>& seconds) {
@@ -246,12 +239,10 @@ TEST(TempoInRealTime, LiveIsTheBounceWithChangesAStopAndALoop) {
         head.quarter = 1.25;
         if (!host.plugin->isNonRealtime()) std::this_thread::sleep_for(std::chrono::milliseconds{300});
     };
-    for (const auto& state : {rain(), [] {
-                                  PluginState s = shakenBox();
-                                  useScene(s, builtInScenes()[2]); // motors drive
-                                  s.transport = TransportMode::inTempo;
-                                  return s;
-                              }()}) {
+    PluginState driven = shakenBox();
+    useScene(driven, builtInScenes()[2]); // motors drive
+    driven.transport = TransportMode::inTempo;
+    for (const auto& state : {rain(), driven}) {
         const auto bounce = playedBy(state, 120.0, 0.0, true, 480, song);
         EXPECT_GT(peakOf(bounce.samples), 0.01f);
         EXPECT_TRUE(playedBy(state, 120.0, 0.0, true, 480, song).samples == bounce.samples);

@@ -18,8 +18,7 @@ struct TimedMessage {
 Samples playedBy(const PluginState& state, const std::vector<TimedMessage>& messages, std::int64_t frames) {
     constexpr int block = 512;
     TestHost host{state};
-    host.plugin->parameter(Parameter::level).setValue(1.0f);
-    host.plugin->parameter(Parameter::strikeLevel).setValue(60.0f / 72.0f); // 0 dB
+    host.setNormal(Parameter::strikeLevel, 60.0f / 72.0f); // 0 dB
     host.prepare(48000, block);
     Samples signal(4);
     const auto all = frames + host.plugin->getLatencySamples();
@@ -40,23 +39,15 @@ Message on(int note, int velocity = 127, int channel = 1) {
 }
 Message off(int note, int channel = 1) { return Message::noteOff(channel, note); }
 
-PluginState voiced(bool isHeld, NotePlaces places = NotePlaces::middle) {
-    auto state = strikeAt(0, 4);
-    state.notes.clear();
-    state.layout = presetLayout("phone4");
+PluginState heldVoice(NotePlaces places = NotePlaces::middle) {
+    auto state = emptyBox();
     state.limiterEnabled = false;
-    state.voice.pitch = NotePitch::note;
-    state.voice.places = places;
-    state.voice.isHeld = isHeld;
-    state.voice.isLoudest = true;
+    state.voice = {.pitch = NotePitch::note, .places = places, .isHeld = true, .isLoudest = true};
     return state;
 }
 
 float peakBetween(const Samples& signal, std::int64_t from, std::int64_t to, std::size_t channel = 0) {
-    float peak = 0.0f;
-    for (auto n = from; n < to; ++n)
-        peak = std::max(peak, std::abs(signal[channel][static_cast<std::size_t>(n)]));
-    return peak;
+    return peakOf(Samples{{signal[channel].begin() + from, signal[channel].begin() + to}});
 }
 
 /// Upward zero crossings per second.
@@ -71,16 +62,13 @@ double pitchOf(const Samples& signal, std::int64_t from, std::int64_t to) {
 TEST(Voice, ANewInstanceIsSilentUntilANoteWhichIsAtMinusSixDecibels) {
     PluginProcessor plugin{"PhysVib", {}};
     plugin.setNonRealtime(true);
-    plugin.setRateAndBufferSizeDetails(48000, 512);
-    plugin.prepareToPlay(48000, 512);
-    juce::AudioBuffer<float> buffer{
-        std::max(plugin.getTotalNumInputChannels(), plugin.getTotalNumOutputChannels()), 512};
+    auto buffer = prepareBlocks(plugin, 512);
     float before = 0.0f, after = 0.0f;
     for (int b = 0; b < 400; ++b) {
-        juce::MidiBuffer midi;
-        if (b == 300) midi.addEvent(on(60), 0);
+        auto midi = b == 300 ? oneNote(60) : juce::MidiBuffer{};
         plugin.processBlock(buffer, midi);
-        (b < 300 ? before : after) = std::max(b < 300 ? before : after, buffer.getMagnitude(0, 512));
+        float& peak = b < 300 ? before : after;
+        peak = std::max(peak, buffer.getMagnitude(0, 512));
     }
     EXPECT_EQ(before, 0.0f);
     EXPECT_NEAR(juce::Decibels::gainToDecibels(after), -6.0f, 1.0f);
@@ -98,7 +86,7 @@ TEST(Voice, EveryPitchHasItsFrequencyAndTheLoudestActuatorItsLevel) {
                                              {69, 127, 440.0},
                                              {81, 127, 440.0},
                                              {4, 64, 20.6}}) {
-        const auto signal = playedBy(voiced(true), {{0, on(note, velocity)}}, 48000);
+        const auto signal = playedBy(heldVoice(), {{0, on(note, velocity)}}, 48000);
         EXPECT_NEAR(pitchOf(signal, 0, 48000), hz, 1.1) << note;
         for (std::size_t c = 0; c < 4; ++c)
             EXPECT_NEAR(peakBetween(signal, 0, 48000, c), static_cast<float>(velocity) / 127.0f, 1e-3f)
@@ -107,7 +95,7 @@ TEST(Voice, EveryPitchHasItsFrequencyAndTheLoudestActuatorItsLevel) {
 }
 
 TEST(Voice, AHeldNoteIsOneSineUntilItsKeyIsLetGo) {
-    auto state = voiced(true);
+    auto state = heldVoice();
     state.voice.releaseSeconds = 0.1;
     const auto signal = playedBy(state, {{1000, on(45)}, {49000, off(45)}}, 72000);
     for (std::int64_t n = 1000; n < 48900; ++n)
@@ -119,27 +107,20 @@ TEST(Voice, AHeldNoteIsOneSineUntilItsKeyIsLetGo) {
 }
 
 TEST(Voice, TheSustainPedalHoldsWhatTheKeyHasLetGo) {
-    auto state = voiced(true);
+    auto state = heldVoice();
     state.voice.releaseSeconds = 0.05;
-    const auto signal = playedBy(state,
-                                 {{0, on(45)},
-                                  {100, Message::controllerEvent(1, 64, 127)},
-                                  {200, off(45)},
-                                  {24000, Message::controllerEvent(1, 64, 0)}},
-                                 36000);
-    EXPECT_NEAR(peakBetween(signal, 20000, 24000), 1.0f, 1e-3f);
-    EXPECT_LT(peakBetween(signal, 28000, 36000), 0.001f);
-    const auto ended = playedBy(state,
-                                {{0, on(45)},
-                                 {100, Message::controllerEvent(1, 64, 127)},
-                                 {200, off(45)},
-                                 {24000, Message::allNotesOff(1)}},
-                                36000);
-    EXPECT_LT(peakBetween(ended, 28000, 36000), 0.001f) << "All Notes Off";
+    for (const auto& end : {Message::controllerEvent(1, 64, 0), Message::allNotesOff(1)}) {
+        SCOPED_TRACE(end.getDescription());
+        const auto signal = playedBy(
+            state, {{0, on(45)}, {100, Message::controllerEvent(1, 64, 127)}, {200, off(45)}, {24000, end}},
+            36000);
+        EXPECT_NEAR(peakBetween(signal, 20000, 24000), 1.0f, 1e-3f);
+        EXPECT_LT(peakBetween(signal, 28000, 36000), 0.001f);
+    }
 }
 
 TEST(Voice, OneKeyOnTwoChannelsIsTwoNotes) {
-    auto state = voiced(true);
+    auto state = heldVoice();
     state.voice.releaseSeconds = 0.05;
     const Message other = Message::noteOn(2, 45, juce::uint8{127});
     const auto signal = playedBy(state, {{0, on(45)}, {100, other}, {4800, off(45)}}, 36000);
@@ -147,7 +128,7 @@ TEST(Voice, OneKeyOnTwoChannelsIsTwoNotes) {
 }
 
 TEST(Voice, BendPressureAndSlideMoveWhatSounds) {
-    auto state = voiced(true);
+    auto state = heldVoice();
     state.voice.bendSemitones = 12.0;
     const auto signal = playedBy(state,
                                  {{0, on(45, 64, 2)},
@@ -161,10 +142,7 @@ TEST(Voice, BendPressureAndSlideMoveWhatSounds) {
     EXPECT_NEAR(peakBetween(signal, 50000, 70000), 1.0f, 1e-3f);
     EXPECT_NEAR(peakBetween(signal, 74000, 96000, 0), 1.0f, 2e-2f) << "up";
     EXPECT_LT(peakBetween(signal, 74000, 96000, 2), 0.05f) << "away from below";
-    float step = 0.0f;
-    for (std::size_t n = 1; n < signal[0].size(); ++n)
-        step = std::max(step, std::abs(signal[0][n] - signal[0][n - 1]));
-    EXPECT_LT(step, 1.05 * 2.0 * 3.1416 * 220.0 / 48000.0) << "nothing clicks";
+    EXPECT_LT(largestStep(signal[0]), 1.05 * 2.0 * 3.1416 * 220.0 / 48000.0) << "nothing clicks";
 }
 
 /// Makes channel 1 the master of so many.
@@ -179,7 +157,7 @@ TEST(Voice, PressureIsOfItsKeyAndMpesMasterLeadsItsMembers) {
         std::vector<TimedMessage> all = zoneOf(5); // channels 2 to 6
         all.push_back({0, on(45, 64, channel)});
         all.insert(all.end(), more.begin(), more.end());
-        return peakBetween(playedBy(voiced(true), all, 30000), 20000, 30000);
+        return peakBetween(playedBy(heldVoice(), all, 30000), 20000, 30000);
     };
     const float struck = 64.0f / 127.0f;
     EXPECT_NEAR(louder({}), struck, 1e-3f);
@@ -196,7 +174,7 @@ TEST(Voice, PressureIsOfItsKeyAndMpesMasterLeadsItsMembers) {
 }
 
 TEST(Voice, AMasterBendsByTwoSemitonesAndControllersAreSetBackAtOnce) {
-    auto state = voiced(true);
+    auto state = heldVoice();
     state.voice.bendSemitones = 12.0;
     const auto pitch = [&](std::vector<TimedMessage> messages, int channel) {
         messages.push_back({100, on(45, 127, channel)});
@@ -217,11 +195,11 @@ TEST(Voice, AMasterBendsByTwoSemitonesAndControllersAreSetBackAtOnce) {
 TEST(Voice, MoreNotesThanRoomReplaceTheOldest) {
     std::vector<TimedMessage> messages;
     for (int n = 0; n < 40; ++n) messages.push_back({n * 100, on(30 + n, 20)});
-    const auto signal = playedBy(voiced(true), messages, 24000);
+    const auto signal = playedBy(heldVoice(), messages, 24000);
     EXPECT_GT(peakOf(signal), 0.1f);
     std::vector<TimedMessage> silenced = messages;
     silenced.push_back({12000, Message::allSoundOff(1)});
-    EXPECT_EQ(peakBetween(playedBy(voiced(true), silenced, 36000), 24000, 36000), 0.0f);
+    EXPECT_EQ(peakBetween(playedBy(heldVoice(), silenced, 36000), 24000, 36000), 0.0f);
 }
 
 TEST(Voice, StatesWithoutOneSoundAsTheyDid) {
@@ -241,7 +219,7 @@ TEST(Voice, StatesWithoutOneSoundAsTheyDid) {
 }
 
 TEST(Voice, AVoiceIsReadBackAndABadOneIsRefusedInALine) {
-    auto state = voiced(true, NotePlaces::actuators);
+    auto state = heldVoice(NotePlaces::actuators);
     state.voice.releaseSeconds = 1.25;
     const auto text = pluginStateJson(state);
     const auto read = readPluginState(text, "state");
@@ -291,18 +269,14 @@ TEST(Voice, EveryInstrumentIsSilentUntilANoteAndFeltThen) {
         EXPECT_EQ(host.plugin->getCurrentProgram(), program) << name;
         const auto strikeDb = static_cast<float>(host.plugin->parameter(Parameter::strikeLevel).value());
         EXPECT_TRUE(strikeDb > -0.1f && strikeDb < 12.1f) << name;
-        host.plugin->parameter(Parameter::level).setValue(0.8f); // -12 dB
+        host.setNormal(Parameter::level, 0.8f); // -12 dB
         host.prepare(48000, 512);
-        Samples silent, felt;
-        host.play(48000, silent);
-        EXPECT_EQ(peakOf(silent), 0.0f) << name;
-        juce::MidiBuffer midi;
+        EXPECT_EQ(peakOf(host.played(48000)), 0.0f) << name;
         const auto notes = host.plugin->state().notes;
-        midi.addEvent(on(notes.empty() ? 64 : notes.front().note), 0); // 64: of eight actuators the first
-        const float first = host.block(512, midi).getMagnitude(0, 512);
+        Samples felt; // 64: of eight actuators the first
+        append(felt, host.block(512, oneNote(notes.empty() ? 64 : notes.front().note)));
         host.play(24000, felt);
-        EXPECT_NEAR(juce::Decibels::gainToDecibels(std::max(first, peakOf(felt))), strikeDb - 12.0f, 1.5f)
-            << name;
+        EXPECT_NEAR(juce::Decibels::gainToDecibels(peakOf(felt)), strikeDb - 12.0f, 1.5f) << name;
     }
 }
 
