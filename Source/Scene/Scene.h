@@ -301,6 +301,12 @@ using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAc
                             RemoveAction, MotorAction, CameraAction, MaterialAction, SoundAction, HoldAction,
                             TextureAction, GripAction, ChangeAction, JoinAction, UnjoinAction>;
 
+/// True if the action is one of these. Any thread.
+template <class... Kinds>
+bool isAnyOf(const Action& action) noexcept {
+    return (... || std::holds_alternative<Kinds>(action));
+}
+
 /// The body that a live input adds to the world, under the next number; nullptr for other actions.
 inline const BodyDescription* bodyPutBy(const Action& action) noexcept {
     if (const auto* spawn = std::get_if<SpawnAction>(&action)) return &spawn->body;
