@@ -78,7 +78,7 @@ public:
     }
 
     template <class F>
-    void field(std::string_view name, F T::*member, const Bounds& bounds, Need need) {
+    void field(std::string_view name, F T::*member, const Bounds& bounds, Need need = Need::required) {
         if (isThere(name, need)) readValue(json_[name], object_.*member, bounds, materialsIn());
     }
     void pair(std::string_view name, double T::*first, double T::*second, const Bounds&) {
@@ -181,7 +181,7 @@ public:
         , materials_(materials) {}
 
     template <class F>
-    void field(std::string_view name, F T::*member, const Bounds&, Need need) {
+    void field(std::string_view name, F T::*member, const Bounds&, Need need = Need::required) {
         const F& value = object_.*member;
         if (need == Need::required || !(value == defaults_.*member)) add(name, valueJson(value));
     }
