@@ -56,8 +56,7 @@ void SceneDrawing::take(std::span<const Action> actions) {
 }
 
 const BodyDescription* SceneDrawing::find(std::string_view body) const noexcept {
-    const auto found = std::ranges::find(drawn_.bodies, body, &BodyDescription::name);
-    return found == drawn_.bodies.end() ? nullptr : &*found;
+    return findNamed(drawn_.bodies, body);
 }
 
 std::vector<std::string> SceneDrawing::freeNames(const std::string& stem, std::size_t count) const {
@@ -93,8 +92,8 @@ std::vector<Action> SceneDrawing::undoOf(const Action& action, const PoseNow& no
     if (const auto* join = std::get_if<JoinAction>(&action)) return {UnjoinAction{join->joint.name}};
     if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) {
         const Scene here = sceneNow(drawn_, now);
-        const auto joint = std::ranges::find(here.joints, unjoin->joint, &JointDescription::name);
-        if (joint == here.joints.end()) return {};
+        const auto* joint = findNamed(here.joints, unjoin->joint);
+        if (joint == nullptr) return {};
         std::vector<Action> back; // what it held was drawn elsewhere, and goes on alone
         for (const BodyDescription& body : here.bodies)
             if ((body.name == joint->bodyA || body.name == joint->bodyB) && body != *find(body.name))

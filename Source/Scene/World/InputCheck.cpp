@@ -97,8 +97,7 @@ void InputCheck::forgetOldest() {
         });
         // later inputs refer to another body of that name
         inputs.erase(std::remove_if(inputs.begin(), next, isOf), next);
-        if (std::ranges::none_of(scriptedCast(scene_),
-                                 [&](const BodyDescription& known) { return known.name == body; }))
+        if (const auto cast = scriptedCast(scene_); findNamed(cast, body) == nullptr)
             std::erase_if(inputs, [&](const LiveInput& input) {
                 const auto* join = std::get_if<JoinAction>(&input.action);
                 return join != nullptr && (join->joint.bodyA == body || join->joint.bodyB == body);
