@@ -27,7 +27,7 @@ TEST_F(ProtocolExamples, AreCheckedRunAndReported) {
     for (const std::string& name : names) {
         const auto checked = call("study check " + name + ".json");
         EXPECT_EQ(checked.exitCode, 0) << name << ": " << checked.out << checked.err;
-        EXPECT_EQ(checked.out.find("error: "), std::string::npos) << name;
+        EXPECT_FALSE(holds(checked.out, "error: ")) << name;
         const auto ran =
             call("study run " + name + ".json --observer simulated --participants 3 --out " + name);
         ASSERT_EQ(ran.exitCode, 0) << name << ": " << ran.err;
@@ -36,23 +36,22 @@ TEST_F(ProtocolExamples, AreCheckedRunAndReported) {
         ASSERT_EQ(reported.exitCode, 0) << name << ": " << reported.err;
         const std::string page = read(name + "-report/index.html");
         for (const char* untrue : {"no analysis is known", "<td>not finished</td>"})
-            EXPECT_EQ(page.find(untrue), std::string::npos) << name << ": " << untrue;
+            EXPECT_FALSE(holds(page, untrue)) << name;
     }
 }
 
 TEST_F(ProtocolExamples, TheReportHasTheFieldsOfItsProtocol) {
-    ASSERT_EQ(call("study run decay-steps.json --observer simulated --participants 2 --out t").exitCode, 0);
-    ASSERT_EQ(call("report t/*.csv --protocol decay-steps.json --out r").exitCode, 0);
+    runs("study run decay-steps.json --observer simulated --participants 2 --out t");
+    runs("report t/*.csv --protocol decay-steps.json --out r");
     const std::string page = read("r/index.html");
-    EXPECT_NE(page.find("variables (name decay_per_s; at_0_db 10)"), std::string::npos);
-    EXPECT_NE(page.find("; interval_s 0.6; "), std::string::npos);
-    EXPECT_NE(page.find("; feedback yes; "), std::string::npos);
-    EXPECT_NE(read("t/decay-steps-P01.csv").find("--decay 31.622777 --level-of energy"), std::string::npos);
+    EXPECT_TRUE(holds(page, "variables (name decay_per_s; at_0_db 10)"));
+    EXPECT_TRUE(holds(page, "; interval_s 0.6; "));
+    EXPECT_TRUE(holds(page, "; feedback yes; "));
+    EXPECT_TRUE(holds(read("t/decay-steps-P01.csv"), "--decay 31.622777 --level-of energy"));
 }
 
 TEST_F(ProtocolExamples, TimesOfAPersonAreTold) {
-    ASSERT_EQ(call("study run strength-numbers.json --observer simulated --participant P01 --out t").exitCode,
-              0);
+    runs("study run strength-numbers.json --observer simulated --participant P01 --out t");
     std::string rows = read("t/strength-numbers-P01.csv");
     for (std::size_t at = 0; (at = rows.find("simulated", at)) != std::string::npos;)
         rows.replace(at, 9, "person");
@@ -63,41 +62,34 @@ TEST_F(ProtocolExamples, TimesOfAPersonAreTold) {
                             "2026-11-24T15:20:00Z,end,18,,,\n";
     write("t/strength-numbers-P01.times.txt", head + all);
     const std::string report = "report t/*.csv --protocol strength-numbers.json --out ";
-    ASSERT_EQ(call(report + "r").exitCode, 0);
-    EXPECT_NE(
-        read("r/index.html")
-            .find("<td>P01</td><td>2026-11-24T14:00:00Z</td><td>2026-11-24T15:20:00Z</td><td>yes</td><td "
-                  "class=\"number\">2</td><td class=\"number\">47</td><td class=\"number\">1</td><td "
-                  "class=\"number\">1</td><td class=\"number\">3</td><td "
-                  "class=\"number\">0</td><td>ko</td><td>1 "
-                  "2</td><td>5 6</td>"),
-        std::string::npos)
-        << read("r/index.html");
+    runs(report + "r");
+    EXPECT_TRUE(holds(read("r/index.html"),
+                      "<td>P01</td><td>2026-11-24T14:00:00Z</td><td>2026-11-24T15:20:00Z</td><td>yes</td><td "
+                      "class=\"number\">2</td><td class=\"number\">47</td><td class=\"number\">1</td><td "
+                      "class=\"number\">1</td><td class=\"number\">3</td><td "
+                      "class=\"number\">0</td><td>ko</td><td>1 "
+                      "2</td><td>5 6</td>"));
     // a window that was closed in a break: one break, which goes on
     write("t/strength-numbers-P01.times.txt",
           head + "2026-11-24T14:00:00Z,start,0,,1 2,\n2026-11-24T14:10:00Z,break,9,,,\n"
                  "2026-11-24T14:11:00Z,pause,9,,,\n2026-11-24T14:13:00Z,go-on,9,,,\n"
                  "2026-11-24T14:14:00Z,go-on,9,,,\n2026-11-24T14:20:00Z,end,18,,,\n");
-    ASSERT_EQ(call(report + "r0").exitCode, 0);
-    EXPECT_NE(read("r0/index.html")
-                  .find("<td class=\"number\">1</td><td class=\"number\">4</td><td class=\"number\">1</td>"),
-              std::string::npos)
-        << read("r0/index.html");
+    runs(report + "r0");
+    EXPECT_TRUE(holds(read("r0/index.html"),
+                      "<td class=\"number\">1</td><td class=\"number\">4</td><td class=\"number\">1</td>"));
     // rows of which it must not be true
     write("t/strength-numbers-P01.times.txt", head + "2026-11-24T14:00:00Z,start,0,,1 2,\n");
-    ASSERT_EQ(call(report + "r2").exitCode, 0);
+    runs(report + "r2");
     const std::string page = read("r2/index.html");
-    EXPECT_NE(page.find("<td>2026-11-24T14:00:00Z</td><td>no</td><td class=\"number\">1</td>"),
-              std::string::npos);
+    EXPECT_TRUE(holds(page, "<td>2026-11-24T14:00:00Z</td><td>no</td><td class=\"number\">1</td>"));
     write("t/strength-numbers-P01.times.txt", head + "yesterday,start,0,,1 2,\n");
     const auto wrong = call(report + "r3");
     EXPECT_EQ(wrong.exitCode, 1);
-    EXPECT_NE(wrong.err.find("t/strength-numbers-P01.times.txt:2: column time_utc: expected a time like"),
-              std::string::npos)
-        << wrong.err;
+    EXPECT_TRUE(
+        holds(wrong.err, "t/strength-numbers-P01.times.txt:2: column time_utc: expected a time like"));
     std::filesystem::remove(folder_ / "t/strength-numbers-P01.times.txt");
-    ASSERT_EQ(call(report + "r4").exitCode, 0);
-    EXPECT_NE(read("r4/index.html").find("without a file of times"), std::string::npos);
+    runs(report + "r4");
+    EXPECT_TRUE(holds(read("r4/index.html"), "without a file of times"));
 }
 
 // A report's section on methods has every field of a protocol by its name, with its default, and none that
