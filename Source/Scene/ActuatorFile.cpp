@@ -5,6 +5,7 @@
 #include "Io/Disk/Embedded.h"
 #include "Io/Disk/ReadFile.h"
 #include "Io/Json/FieldJson.h"
+#include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Scene/SceneLimits.h"
 #include <array>
@@ -96,8 +97,7 @@ const std::vector<ActuatorProfile>& builtInActuators() {
 
 Result<ActuatorProfile> findActuator(const std::string& nameOrPath) {
     if (isJsonPath(nameOrPath)) return loadActuator(nameOrPath);
-    for (const ActuatorProfile& profile : builtInActuators())
-        if (profile.name == nameOrPath) return profile;
+    if (const auto* profile = findNamed(builtInActuators(), nameOrPath)) return *profile;
     return Failure{"no actuator " + inQuotes(nameOrPath) + " (see physvib actuators)"};
 }
 

@@ -12,6 +12,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <variant>
 
 namespace physvib {
@@ -134,33 +135,25 @@ inline std::string readCell(const MaterialColumn& column, std::string_view cell,
     column.field(event) = soundNamed(cell);
     return {};
 }
-
 inline std::string readCell(const PartColumn& column, std::string_view cell, CollisionEvent& event) {
     column.field(event) = partOf(cell);
     return {};
 }
 
-inline void writeCell(const SecondsColumn& column, CollisionEvent& event, const SoundNames&,
-                      std::string& out) {
-    appendSeconds(out, column.field(event));
-}
-inline void writeCell(const NumberColumn& column, CollisionEvent& event, const SoundNames&,
-                      std::string& out) {
-    appendNumber(out, column.field(event));
-}
-inline void writeCell(const WholeColumn& column, CollisionEvent& event, const SoundNames&, std::string& out) {
-    appendNumber(out, column.field(event));
-}
-inline void writeCell(const KindColumn& column, CollisionEvent& event, const SoundNames&, std::string& out) {
-    out += contactKindNames[static_cast<std::size_t>(column.field(event))];
-}
-inline void writeCell(const MaterialColumn& column, CollisionEvent& event, const SoundNames& names,
-                      std::string& out) {
-    out += names.of(column.field(event));
-}
-inline void writeCell(const PartColumn& column, CollisionEvent& event, const SoundNames& names,
-                      std::string& out) {
-    out += names.parts.of(column.field(event));
+/// Appends the event's cell.
+inline void writeCell(const auto& column, CollisionEvent& event, const SoundNames& names, std::string& out) {
+    using Column = std::decay_t<decltype(column)>;
+    const auto& value = column.field(event);
+    if constexpr (std::is_same_v<Column, SecondsColumn>)
+        appendSeconds(out, value);
+    else if constexpr (std::is_same_v<Column, KindColumn>)
+        out += contactKindNames[static_cast<std::size_t>(value)];
+    else if constexpr (std::is_same_v<Column, MaterialColumn>)
+        out += names.of(value);
+    else if constexpr (std::is_same_v<Column, PartColumn>)
+        out += names.parts.of(value);
+    else
+        appendNumber(out, value);
 }
 
 } // namespace physvib

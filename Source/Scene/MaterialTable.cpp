@@ -13,9 +13,9 @@ namespace physvib {
 const std::vector<EmbeddedFile>& embeddedMaterials();
 
 void visitFields(auto& v, FieldsOf<MaterialTable>) {
-    v.field("name", &MaterialTable::name, anyText, Need::required);
+    v.field("name", &MaterialTable::name, anyText);
     v.field("source", &MaterialTable::source, anyText, Need::optional);
-    v.field("materials", &MaterialTable::materials, items(0, sceneLimits::maxMaterials), Need::required);
+    v.field("materials", &MaterialTable::materials, items(0, sceneLimits::maxMaterials));
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #pragma once
 #include "Contacts/Grains.h"
 #include "Contacts/HapticFixture.h"
+#include "Io/Text/NameList.h"
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -301,10 +302,17 @@ using Action = std::variant<GravityAction, TiltAction, ImpulseAction, VelocityAc
                             RemoveAction, MotorAction, CameraAction, MaterialAction, SoundAction, HoldAction,
                             TextureAction, GripAction, ChangeAction, JoinAction, UnjoinAction>;
 
+/// True if the action is one of these. Any thread.
+template <class... Kinds>
+bool isAnyOf(const Action& action) noexcept {
+    return (... || std::holds_alternative<Kinds>(action));
+}
+
 /// The body that a live input adds to the world, under the next number; nullptr for other actions.
-inline const BodyDescription* bodyPutBy(const Action& action) noexcept {
-    if (const auto* spawn = std::get_if<SpawnAction>(&action)) return &spawn->body;
-    if (const auto* change = std::get_if<ChangeAction>(&action)) return &change->body;
+template <class OneAction> // Action, const or not
+auto bodyPutBy(OneAction& action) noexcept -> decltype(&std::get_if<SpawnAction>(&action)->body) {
+    if (auto* spawn = std::get_if<SpawnAction>(&action)) return &spawn->body;
+    if (auto* change = std::get_if<ChangeAction>(&action)) return &change->body;
     return nullptr;
 }
 

@@ -14,16 +14,9 @@ namespace {
 
 BodyDescription* findBody(Scene& scene, const std::string& name) {
     // the last body of that name exists
-    for (auto input = scene.inputs.rbegin(); input != scene.inputs.rend(); ++input) {
-        if (auto* spawn = std::get_if<SpawnAction>(&input->action);
-            spawn != nullptr && spawn->body.name == name)
-            return &spawn->body;
-        if (auto* change = std::get_if<ChangeAction>(&input->action);
-            change != nullptr && change->body.name == name)
-            return &change->body;
-    }
-    const auto found = std::ranges::find(scene.bodies, name, &BodyDescription::name);
-    return found == scene.bodies.end() ? nullptr : &*found;
+    for (auto input = scene.inputs.rbegin(); input != scene.inputs.rend(); ++input)
+        if (auto* put = bodyPutBy(input->action); put != nullptr && put->name == name) return put;
+    return findNamed(scene.bodies, name);
 }
 
 template <class Change>
@@ -64,9 +57,7 @@ void edit(Scene& scene, const Action& action) {
     if (const auto* unjoin = std::get_if<UnjoinAction>(&action))
         std::erase_if(scene.joints, [unjoin](const JointDescription& j) { return j.name == unjoin->joint; });
     const BodyDescription* put = bodyPutBy(action);
-    if (put != nullptr &&
-        std::ranges::find(scene.bodies, put->name, &BodyDescription::name) == scene.bodies.end())
-        scene.bodies.push_back(*put);
+    if (put != nullptr && findNamed(scene.bodies, put->name) == nullptr) scene.bodies.push_back(*put);
 }
 
 } // namespace

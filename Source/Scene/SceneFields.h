@@ -25,7 +25,8 @@ constexpr Bounds upTo(double most) { return {0.0, most}; }
 constexpr Bounds within(double reach) { return {-reach, reach}; }
 
 /// visitFields(v, FieldsOf<T>{}) calls v once per field of T:
-///   field(name, member, Bounds, Need)   text, truth, number, Vector, struct; optionals and lists of those
+///   field(name, member, Bounds, Need)   text, truth, number, Vector, struct; optionals and lists of those;
+///                                       required unless Need::optional is given
 ///   pair(name, member, member, Bounds)  two numbers as [a, b]; required
 ///   choice(name, member, names)         an enumeration; optional
 ///   material(name, member)              an index into Scene::materials, in files a name; required
@@ -52,12 +53,11 @@ void visitTexture(V& v) {
 }
 
 void visitFields(auto& v, FieldsOf<Material>) {
-    v.field("name", &Material::name, anyText, Need::required);
+    v.field("name", &Material::name, anyText);
     v.field("density_kg_per_m2", &Material::densityKgPerSquareMetre,
-            Bounds{sceneLimits::minDensityKgPerSquareMetre, sceneLimits::maxDensityKgPerSquareMetre},
-            Need::required);
-    v.field("friction", &Material::friction, upTo(sceneLimits::maxFriction), Need::required);
-    v.field("restitution", &Material::restitution, upTo(1.0), Need::required);
+            Bounds{sceneLimits::minDensityKgPerSquareMetre, sceneLimits::maxDensityKgPerSquareMetre});
+    v.field("friction", &Material::friction, upTo(sceneLimits::maxFriction));
+    v.field("restitution", &Material::restitution, upTo(1.0));
     v.field("frequency_hz", &Material::frequencyHz, upTo(limits::maxFrequencyHz), Need::optional);
     v.field("decay_per_s", &Material::decayPerSecond, upTo(limits::maxDecayPerSecond), Need::optional);
     visitTexture<Material>(v);
@@ -65,7 +65,7 @@ void visitFields(auto& v, FieldsOf<Material>) {
 }
 
 void visitFields(auto& v, FieldsOf<CircleShape>) {
-    v.field("radius_m", &CircleShape::radiusMetres, sizeBounds, Need::required);
+    v.field("radius_m", &CircleShape::radiusMetres, sizeBounds);
 }
 void visitFields(auto& v, FieldsOf<BoxShape>) {
     v.pair("size_m", &BoxShape::widthMetres, &BoxShape::heightMetres, sizeBounds);
@@ -73,12 +73,12 @@ void visitFields(auto& v, FieldsOf<BoxShape>) {
 void visitFields(auto& v, FieldsOf<PolygonShape>) {
     constexpr double reach = sceneLimits::maxSizeMetres;
     v.field("vertices_m", &PolygonShape::verticesMetres,
-            Bounds{-reach, reach, 3, sceneLimits::maxPolygonVertices}, Need::required);
+            Bounds{-reach, reach, 3, sceneLimits::maxPolygonVertices});
 }
 void visitFields(auto& v, FieldsOf<ChainShape>) {
     constexpr double reach = sceneLimits::maxPositionMetres;
     v.field("vertices_m", &ChainShape::verticesMetres,
-            Bounds{-reach, reach, 2, sceneLimits::maxChainVertices}, Need::required);
+            Bounds{-reach, reach, 2, sceneLimits::maxChainVertices});
     v.field("loop", &ChainShape::isLoop, {}, Need::optional);
 }
 
@@ -99,9 +99,9 @@ void visitFields(auto& v, FieldsOf<FixtureDescription>) {
 
 void visitFields(auto& v, FieldsOf<BodyDescription>) {
     using B = BodyDescription;
-    v.field("name", &B::name, anyText, Need::required);
+    v.field("name", &B::name, anyText);
     v.choice("type", &B::type, bodyTypeNames);
-    v.field("position_m", &B::positionMetres, positionBounds, Need::required);
+    v.field("position_m", &B::positionMetres, positionBounds);
     v.field("angle_rad", &B::angleRadians, angleBounds, Need::optional);
     v.field("velocity_m_per_s", &B::velocityMetresPerSecond, speedBounds, Need::optional);
     v.field("spin_rad_per_s", &B::spinRadiansPerSecond, spinBounds, Need::optional);
@@ -110,17 +110,17 @@ void visitFields(auto& v, FieldsOf<BodyDescription>) {
     v.field("angular_damping_per_s", &B::angularDampingPerSecond, upTo(sceneLimits::maxDampingPerSecond),
             Need::optional);
     v.field("mass_kg", &B::massKg, Bounds{sceneLimits::minMassKg, sceneLimits::maxMassKg}, Need::optional);
-    v.field("fixtures", &B::fixtures, items(1, sceneLimits::maxFixturesPerBody), Need::required);
+    v.field("fixtures", &B::fixtures, items(1, sceneLimits::maxFixturesPerBody));
 }
 
 void visitFields(auto& v, FieldsOf<RevoluteJoint>) {
-    v.field("anchor_m", &RevoluteJoint::anchorMetres, positionBounds, Need::required);
+    v.field("anchor_m", &RevoluteJoint::anchorMetres, positionBounds);
     v.field("limits_rad", &RevoluteJoint::limitsRadians, angleBounds, Need::optional);
     v.field("motor_rad_per_s", &RevoluteJoint::motorRadiansPerSecond, spinBounds, Need::optional);
     v.field("max_torque_nm", &RevoluteJoint::maxTorqueNewtonMetres, torqueBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<WheelJoint>) {
-    v.field("anchor_m", &WheelJoint::anchorMetres, positionBounds, Need::required);
+    v.field("anchor_m", &WheelJoint::anchorMetres, positionBounds);
     v.field("axis", &WheelJoint::axis, within(1.0), Need::optional);
     v.field("suspension_hz", &WheelJoint::suspensionHz, upTo(sceneLimits::maxSpringHz), Need::optional);
     v.field("damping_ratio", &WheelJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio), Need::optional);
@@ -129,21 +129,21 @@ void visitFields(auto& v, FieldsOf<WheelJoint>) {
     v.field("max_torque_nm", &WheelJoint::maxTorqueNewtonMetres, torqueBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<DistanceJoint>) {
-    v.field("anchor_a_m", &DistanceJoint::anchorAMetres, positionBounds, Need::required);
-    v.field("anchor_b_m", &DistanceJoint::anchorBMetres, positionBounds, Need::required);
+    v.field("anchor_a_m", &DistanceJoint::anchorAMetres, positionBounds);
+    v.field("anchor_b_m", &DistanceJoint::anchorBMetres, positionBounds);
     v.field("spring_hz", &DistanceJoint::springHz, upTo(sceneLimits::maxSpringHz), Need::optional);
     v.field("damping_ratio", &DistanceJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio),
             Need::optional);
     v.field("slack", &DistanceJoint::isSlack, {}, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<WeldJoint>) {
-    v.field("anchor_m", &WeldJoint::anchorMetres, positionBounds, Need::required);
+    v.field("anchor_m", &WeldJoint::anchorMetres, positionBounds);
     v.field("spring_hz", &WeldJoint::springHz, upTo(sceneLimits::maxSpringHz), Need::optional);
     v.field("damping_ratio", &WeldJoint::dampingRatio, upTo(sceneLimits::maxDampingRatio), Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<SliderJoint>) {
-    v.field("anchor_m", &SliderJoint::anchorMetres, positionBounds, Need::required);
+    v.field("anchor_m", &SliderJoint::anchorMetres, positionBounds);
     v.field("axis", &SliderJoint::axis, within(1.0), Need::optional);
     v.field("travel_m", &SliderJoint::travelMetres, positionBounds, Need::optional);
     v.field("motor_m_per_s", &SliderJoint::motorMetresPerSecond, speedBounds, Need::optional);
@@ -154,49 +154,46 @@ inline constexpr std::array<std::string_view, 5> jointNames{"revolute", "wheel",
                                                             "slider"};
 
 void visitFields(auto& v, FieldsOf<JointDescription>) {
-    v.field("name", &JointDescription::name, anyText, Need::required);
-    v.field("body_a", &JointDescription::bodyA, anyText, Need::required);
-    v.field("body_b", &JointDescription::bodyB, anyText, Need::required);
+    v.field("name", &JointDescription::name, anyText);
+    v.field("body_a", &JointDescription::bodyA, anyText);
+    v.field("body_b", &JointDescription::bodyB, anyText);
     v.variant("type", &JointDescription::joint, jointNames);
     v.field("collide", &JointDescription::collide, {}, Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<GravityAction>) {
-    v.field("gravity_m_per_s2", &GravityAction::metresPerSecond2, accelerationBounds, Need::required);
+    v.field("gravity_m_per_s2", &GravityAction::metresPerSecond2, accelerationBounds);
 }
 void visitFields(auto& v, FieldsOf<TiltAction>) {
-    v.field("angle_rad", &TiltAction::angleRadians, angleBounds, Need::required);
+    v.field("angle_rad", &TiltAction::angleRadians, angleBounds);
 }
 void visitFields(auto& v, FieldsOf<ImpulseAction>) {
-    v.field("body", &ImpulseAction::body, anyText, Need::required);
-    v.field("impulse_ns", &ImpulseAction::newtonSeconds, within(sceneLimits::maxImpulseNewtonSeconds),
-            Need::required);
+    v.field("body", &ImpulseAction::body, anyText);
+    v.field("impulse_ns", &ImpulseAction::newtonSeconds, within(sceneLimits::maxImpulseNewtonSeconds));
     v.field("point_m", &ImpulseAction::pointMetres, positionBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<VelocityAction>) {
-    v.field("body", &VelocityAction::body, anyText, Need::required);
-    v.field("velocity_m_per_s", &VelocityAction::metresPerSecond, speedBounds, Need::required);
+    v.field("body", &VelocityAction::body, anyText);
+    v.field("velocity_m_per_s", &VelocityAction::metresPerSecond, speedBounds);
     v.field("spin_rad_per_s", &VelocityAction::spinRadiansPerSecond, spinBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<SpawnAction>) {
-    v.field("body", &SpawnAction::body, {}, Need::required);
+    v.field("body", &SpawnAction::body, {});
     v.field("shift_m", &SpawnAction::shiftMetres, positionBounds, Need::optional);
 }
-void visitFields(auto& v, FieldsOf<RemoveAction>) {
-    v.field("body", &RemoveAction::body, anyText, Need::required);
-}
+void visitFields(auto& v, FieldsOf<RemoveAction>) { v.field("body", &RemoveAction::body, anyText); }
 void visitFields(auto& v, FieldsOf<MotorAction>) {
-    v.field("joint", &MotorAction::joint, anyText, Need::required);
-    v.field("motor_rad_per_s", &MotorAction::radiansPerSecond, spinBounds, Need::required);
+    v.field("joint", &MotorAction::joint, anyText);
+    v.field("motor_rad_per_s", &MotorAction::radiansPerSecond, spinBounds);
     v.field("max_torque_nm", &MotorAction::maxTorqueNewtonMetres, torqueBounds, Need::optional);
 }
 void visitFields(auto& v, FieldsOf<CameraAction>) {
-    v.field("body", &CameraAction::body, anyText, Need::required);
+    v.field("body", &CameraAction::body, anyText);
     v.field("fixture", &CameraAction::fixture, fixtureBounds, Need::optional);
-    v.field("on", &CameraAction::isOn, {}, Need::required);
+    v.field("on", &CameraAction::isOn, {});
 }
 void visitFields(auto& v, FieldsOf<MaterialAction>) {
-    v.field("body", &MaterialAction::body, anyText, Need::required);
+    v.field("body", &MaterialAction::body, anyText);
     v.field("fixture", &MaterialAction::fixture, fixtureBounds, Need::optional);
     v.material("material", &MaterialAction::material);
 }
@@ -204,14 +201,14 @@ void visitFields(auto& v, FieldsOf<MaterialAction>) {
 void visitFields(auto& v, FieldsOf<SoundAction>) {
     v.material("material", &SoundAction::material);
     v.field("frequency_hz", &SoundAction::frequencyHz,
-            Bounds{sceneLimits::minSoundHz, limits::maxFrequencyHz}, Need::required);
+            Bounds{sceneLimits::minSoundHz, limits::maxFrequencyHz});
     v.field("decay_per_s", &SoundAction::decayPerSecond,
-            Bounds{sceneLimits::minSoundDecayPerSecond, limits::maxDecayPerSecond}, Need::required);
+            Bounds{sceneLimits::minSoundDecayPerSecond, limits::maxDecayPerSecond});
 }
 
 void visitFields(auto& v, FieldsOf<HoldAction>) {
-    v.field("factor", &HoldAction::factor, upTo(sceneLimits::maxGravityFactor), Need::required);
-    v.field("angle_rad", &HoldAction::angleRadians, angleBounds, Need::required);
+    v.field("factor", &HoldAction::factor, upTo(sceneLimits::maxGravityFactor));
+    v.field("angle_rad", &HoldAction::angleRadians, angleBounds);
 }
 
 void visitFields(auto& v, FieldsOf<TextureAction>) {
@@ -220,27 +217,25 @@ void visitFields(auto& v, FieldsOf<TextureAction>) {
 }
 
 void visitFields(auto& v, FieldsOf<GripAction>) {
-    v.field("body", &GripAction::body, anyText, Need::required);
+    v.field("body", &GripAction::body, anyText);
     v.field("to_m", &GripAction::toMetres, positionBounds, Need::optional);
     v.field("point_m", &GripAction::pointMetres, positionBounds, Need::optional);
     v.field("over_s", &GripAction::overSeconds, upTo(sceneLimits::maxScriptSeconds), Need::optional);
 }
 
 void visitFields(auto& v, FieldsOf<ChangeAction>) {
-    v.field("body", &ChangeAction::body, {}, Need::required);
+    v.field("body", &ChangeAction::body, {});
     v.field("stays", &ChangeAction::stays, {}, Need::optional);
 }
-void visitFields(auto& v, FieldsOf<JoinAction>) { v.field("joint", &JoinAction::joint, {}, Need::required); }
-void visitFields(auto& v, FieldsOf<UnjoinAction>) {
-    v.field("joint", &UnjoinAction::joint, anyText, Need::required);
-}
+void visitFields(auto& v, FieldsOf<JoinAction>) { v.field("joint", &JoinAction::joint, {}); }
+void visitFields(auto& v, FieldsOf<UnjoinAction>) { v.field("joint", &UnjoinAction::joint, anyText); }
 
 inline constexpr std::array<std::string_view, 16> actionNames{
     "gravity",  "tilt",  "impulse", "velocity", "spawn", "remove", "motor", "camera",
     "material", "sound", "hold",    "texture",  "grip",  "change", "join",  "unjoin"};
 
 void visitFields(auto& v, FieldsOf<ScriptInput>) {
-    v.field("time_s", &ScriptInput::timeSeconds, upTo(sceneLimits::maxScriptSeconds), Need::required);
+    v.field("time_s", &ScriptInput::timeSeconds, upTo(sceneLimits::maxScriptSeconds));
     v.field("times", &ScriptInput::times, Bounds{1.0, static_cast<double>(sceneLimits::maxActions)},
             Need::optional);
     v.field("every_s", &ScriptInput::everySeconds, upTo(sceneLimits::maxScriptSeconds), Need::optional);
@@ -248,7 +243,7 @@ void visitFields(auto& v, FieldsOf<ScriptInput>) {
 }
 
 void visitFields(auto& v, FieldsOf<LiveInput>) {
-    v.field("time_s", &LiveInput::timeSeconds, upTo(sceneLimits::maxLiveSeconds), Need::required);
+    v.field("time_s", &LiveInput::timeSeconds, upTo(sceneLimits::maxLiveSeconds));
     v.variant("input", &LiveInput::action, actionNames);
 }
 
@@ -259,15 +254,15 @@ void visitFields(auto& v, FieldsOf<Normalisation>) {
 }
 
 void visitFields(auto& v, FieldsOf<Scene>) {
-    v.field("name", &Scene::name, anyText, Need::required);
+    v.field("name", &Scene::name, anyText);
     v.field("description", &Scene::description, anyText, Need::optional);
     v.pair("field_m", &Scene::fieldWidthMetres, &Scene::fieldHeightMetres,
            Bounds{sceneLimits::minSizeMetres, sceneLimits::maxPositionMetres});
     v.field("gravity_m_per_s2", &Scene::gravityMetresPerSecond2, accelerationBounds, Need::optional);
     v.field("drive_gain", &Scene::driveGain, upTo(sceneLimits::maxDriveGain), Need::optional);
     v.field("normalisation", &Scene::normalisation, {}, Need::optional);
-    v.field("materials", &Scene::materials, items(0, sceneLimits::maxMaterials), Need::required);
-    v.field("bodies", &Scene::bodies, items(0, sceneLimits::maxBodies), Need::required);
+    v.field("materials", &Scene::materials, items(0, sceneLimits::maxMaterials));
+    v.field("bodies", &Scene::bodies, items(0, sceneLimits::maxBodies));
     v.field("joints", &Scene::joints, items(0, sceneLimits::maxJoints), Need::optional);
     v.field("script", &Scene::script, items(0, sceneLimits::maxInputs), Need::optional);
     v.field("script_period_s", &Scene::scriptPeriodSeconds,

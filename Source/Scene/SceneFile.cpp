@@ -158,11 +158,7 @@ const std::vector<Scene>& builtInScenes() {
     return scenes;
 }
 
-const Scene* findBuiltInScene(std::string_view name) {
-    const auto& scenes = builtInScenes();
-    const auto found = std::ranges::find_if(scenes, [&](const Scene& s) { return s.name == name; });
-    return found == scenes.end() ? nullptr : &*found;
-}
+const Scene* findBuiltInScene(std::string_view name) { return findNamed(builtInScenes(), name); }
 
 Result<Scene> findScene(const std::string& nameOrPath, const SceneSettings& settings) {
     if (isJsonPath(nameOrPath)) return loadScene(nameOrPath, settings);

@@ -78,7 +78,7 @@ public:
     }
 
     template <class F>
-    void field(std::string_view name, F T::*member, const Bounds& bounds, Need need) {
+    void field(std::string_view name, F T::*member, const Bounds& bounds, Need need = Need::required) {
         if (isThere(name, need)) readValue(json_[name], object_.*member, bounds, materialsIn());
     }
     void pair(std::string_view name, double T::*first, double T::*second, const Bounds&) {
@@ -94,11 +94,9 @@ public:
     void material(std::string_view name, int T::*member) {
         if (!isThere(name, Need::required)) return;
         const std::string wanted = json_[name].text();
-        const auto isWanted = [&wanted](const Material& material) { return material.name == wanted; };
-        const auto found = std::ranges::find_if(materials_, isWanted);
-        if (found == materials_.end())
-            json_[name].fail("expected the name of a material, found " + inQuotes(wanted));
-        object_.*member = static_cast<int>(found - materials_.begin());
+        const auto* found = findNamed(materials_, wanted);
+        if (found == nullptr) json_[name].fail("expected the name of a material, found " + inQuotes(wanted));
+        object_.*member = static_cast<int>(found - materials_.data());
     }
     template <class... Kinds, class Names>
     void variant(std::string_view name, std::variant<Kinds...> T::*member, const Names& names) {
@@ -181,7 +179,7 @@ public:
         , materials_(materials) {}
 
     template <class F>
-    void field(std::string_view name, F T::*member, const Bounds&, Need need) {
+    void field(std::string_view name, F T::*member, const Bounds&, Need need = Need::required) {
         const F& value = object_.*member;
         if (need == Need::required || !(value == defaults_.*member)) add(name, valueJson(value));
     }

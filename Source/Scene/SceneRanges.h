@@ -60,7 +60,7 @@ public:
         , materials_(materials) {}
 
     template <class F>
-    void field(std::string_view name, F T::*member, const Bounds& bounds, Need need) {
+    void field(std::string_view name, F T::*member, const Bounds& bounds, Need need = Need::required) {
         const F& value = object_.*member;
         const bool isLeftOut = need == Need::optional && value == defaults_.*member;
         if (fault.empty() && !isLeftOut) fault = check(pathOf(name), value, bounds);

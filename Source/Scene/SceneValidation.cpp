@@ -231,9 +231,7 @@ private:
         const double period = scene_.scriptPeriodSeconds;
         const double end = period > 0.0 ? period : sceneLimits::maxScriptSeconds;
         if (!(last <= end)) return detail::outside(path + ".time_s", 0.0, end, last);
-        if (std::holds_alternative<ChangeAction>(input.action) ||
-            std::holds_alternative<JoinAction>(input.action) ||
-            std::holds_alternative<UnjoinAction>(input.action))
+        if (isAnyOf<ChangeAction, JoinAction, UnjoinAction>(input.action))
             return path + ".input: expected another: change, join and unjoin are live inputs only";
         return std::visit([&](const auto& action) { return checkAction(action, path); }, input.action);
     }

@@ -114,9 +114,7 @@ struct LoadedRender {
     }
     /// Whether the session's layouts are kept, or replaced by one of the options.
     bool keepsLayouts() const {
-        constexpr const char* panning[] = {"--layout", "--law", "--exponent", "--field"};
-        return session &&
-               std::ranges::none_of(panning, [&](const char* name) { return options.given.contains(name); });
+        return session && !options.firstGiven({"--layout", "--law", "--exponent", "--field"});
     }
     /// Files that are read because others name them: a session its recordings, a layout its actuators.
     std::vector<std::string> namedInputs() const {
@@ -127,7 +125,7 @@ struct LoadedRender {
     }
     int channels() const { return keepsLayouts() ? session->channels : layout.geometry.count; }
     double seconds() const {
-        if (options.given.contains("--seconds")) return options.seconds;
+        if (options.isGiven("--seconds")) return options.seconds;
         if (clip) return clip->seconds();
         return session ? static_cast<double>(session->lengthNs) * 1e-9 : options.seconds;
     }
@@ -137,9 +135,7 @@ struct LoadedRender {
     }
     /// Whether a session's actuators are kept, as its layouts.
     bool keepsActuators() const {
-        constexpr const char* own[] = {"--actuator", "--equalise", "--remap", "--layout"};
-        return session &&
-               std::ranges::none_of(own, [&](const char* name) { return options.given.contains(name); });
+        return session && !options.firstGiven({"--actuator", "--equalise", "--remap", "--layout"});
     }
     EqualisedActuators equalised() const {
         return keepsActuators() ? session->equalised : actuators.equalised;
@@ -150,19 +146,19 @@ struct LoadedRender {
     }
     /// Recordings are played whole, so that one call of a study renders the model and the recording.
     double truncation() const {
-        if (session && !options.given.contains("--gamma")) return session->shaping.truncation;
+        if (session && !options.isGiven("--gamma")) return session->shaping.truncation;
         return options.playsRecordings ? 0.0 : options.gamma;
     }
     double gain() const {
-        return session && !options.given.contains("--level-db") ? session->shaping.gain
-                                                                : fromDecibels(options.levelDb);
+        return session && !options.isGiven("--level-db") ? session->shaping.gain
+                                                         : fromDecibels(options.levelDb);
     }
     PerceivedLevel perceived() const {
-        return session && !options.given.contains("--perceived-level") ? session->shaping.perceived
-                                                                       : PerceivedLevel{options.isWeighted};
+        return session && !options.isGiven("--perceived-level") ? session->shaping.perceived
+                                                                : PerceivedLevel{options.isWeighted};
     }
     /// Whether what a session played of recordings is kept: its own method.
-    bool keepsRecordings() const { return session && !options.given.contains("--method"); }
+    bool keepsRecordings() const { return session && !options.isGiven("--method"); }
     bool isLimited() const { return session ? session->limiterEnabled : options.limiting == Limiting::on; }
     std::int64_t frames() const {
         return std::max<std::int64_t>(1, std::llround(seconds() * options.sampleRateHz));
@@ -183,7 +179,7 @@ struct LoadedRender {
     double fieldHeightMetres() const { return field().heightMetres; }
     /// The wanted method, its fixed level in shares of the enchanters' full scale.
     RenderingMethod method() const {
-        if (session && !options.given.contains("--method")) return session->shaping.method;
+        if (session && !options.isGiven("--method")) return session->shaping.method;
         RenderingMethod wanted = options.method;
         wanted.fixedAmplitude = RenderingMethod::fixedLevelG / fullScaleG();
         wanted.holdsLevel = wanted.fixesAmplitude && options.fixesSum;
@@ -194,7 +190,7 @@ struct LoadedRender {
     PhantomPanner panner() const {
         if (keepsLayouts()) return session->panner;
         // an exponent alone is that of the linear law, of grains too, even if it is 1
-        const bool isLinear = options.given.contains("--exponent") && !options.given.contains("--law");
+        const bool isLinear = options.isGiven("--exponent") && !options.isGiven("--law");
         return {layout.geometry, isLinear ? PanningLaw::linear : options.law, options.exponent,
                 fieldWidthMetres(), fieldHeightMetres()};
     }
@@ -268,9 +264,9 @@ inline std::string takeRecordings(LoadedRender& job, const std::vector<Collision
 
 /// Takes the saved session that the options name into `job`: exitDone, or the code after a line on stderr.
 inline int takeSession(LoadedRender& job) {
-    for (const char* own : {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--limiter"})
-        if (job.options.given.contains(own))
-            return leave(exitUsage, std::string{own} + ": a saved session brings its own");
+    if (const char* own = job.options.firstGiven(
+            {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--limiter"}))
+        return leave(exitUsage, std::string{own} + ": a saved session brings its own");
     auto session = loadSession(job.options.scene);
     if (!session) return leave(exitFailed, session.error);
     job.session = std::move(session.value);

@@ -10,7 +10,9 @@
 #include "Scene/FieldSize.h"
 #include "Scene/SceneFile.h"
 #include "Scene/World/Simulation.h"
+#include <algorithm>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <set>
 #include <string>
@@ -82,6 +84,12 @@ struct RenderJob {
 
     std::set<std::string> given; ///< options in the call, with their dashes; a saved session keeps its own
                                  ///< values for all others
+    bool isGiven(const std::string& option) const { return given.contains(option); }
+    /// The first of these that the call had; null: none.
+    const char* firstGiven(std::initializer_list<const char*> options) const {
+        const auto found = std::ranges::find_if(options, [&](const char* name) { return isGiven(name); });
+        return found == options.end() ? nullptr : *found;
+    }
     /// Output files of `render`.
     std::vector<std::string> writtenPaths() const {
         return {wavPath, eventsPath, picturePath, moviePath, patternPath, contactSound, marker};

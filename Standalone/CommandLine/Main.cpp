@@ -5,7 +5,6 @@
 #include "Live/Devices/AudioDevice.h"
 #include "Options/OptionTable.h"
 #include "System/Process.h"
-#include "System/StandardStreams.h"
 #include <algorithm>
 #include <exception>
 #include <iostream>

@@ -232,12 +232,7 @@ void each(const OptionTable& command, const Visit& visit) {
     for (const OptionTable& inner : command.commands) each(inner, visit);
 }
 
-std::string bracketed(const std::vector<std::string>& words) {
-    std::string out = joined(words, " ");
-    out.insert(out.begin(), '(');
-    out += ')';
-    return out;
-}
+std::string bracketed(const std::vector<std::string>& words) { return '(' + joined(words, " ") + ')'; }
 
 std::vector<std::string> namesWithin(const OptionTable& command) {
     std::vector<std::string> names;
@@ -382,35 +377,29 @@ std::string fishCompletion(const OptionTable& program) {
     return out.str();
 }
 
-std::string writeInto(const std::filesystem::path& folder, const std::string& name, const std::string& text) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    return error ? folder.string() + ": cannot be made: " + error.message() : writeFile(folder / name, text);
-}
-
-std::string writePages(const OptionTable& program, const std::filesystem::path& folder) {
-    std::vector<std::string> pages{pageName(program)};
-    for (const OptionTable& command : program.commands) pages.push_back(pageName(command));
-    if (auto error = writeInto(folder, pages.front() + ".1", manPage(program, pages)); !error.empty())
-        return error;
-    for (const OptionTable& command : program.commands)
-        if (auto error = writeInto(folder, pageName(command) + ".1", manPage(command, {pages.front()}));
-            !error.empty())
-            return error;
-    return {};
-}
-
 } // namespace
 
 std::string writeReference(const OptionTable& program, const std::filesystem::path& folder) {
-    if (auto error = writePages(program, folder / "man1"); !error.empty()) return error;
-    if (auto error = writeInto(folder / "md", program.words + ".md", markdownPage(program)); !error.empty())
-        return error;
-    if (auto error = writeInto(folder / "bash", program.words, bashCompletion(program)); !error.empty())
-        return error;
-    if (auto error = writeInto(folder / "zsh", "_" + program.words, zshCompletion(program)); !error.empty())
-        return error;
-    return writeInto(folder / "fish", program.words + ".fish", fishCompletion(program));
+    const std::string ownPage = pageName(program);
+    std::vector<std::string> pages{ownPage};
+    std::map<std::filesystem::path, std::string> files{
+        {"md/" + program.words + ".md", markdownPage(program)},
+        {"bash/" + program.words, bashCompletion(program)},
+        {"zsh/_" + program.words, zshCompletion(program)},
+        {"fish/" + program.words + ".fish", fishCompletion(program)}};
+    for (const OptionTable& command : program.commands) {
+        pages.push_back(pageName(command));
+        files["man1/" + pages.back() + ".1"] = manPage(command, {ownPage});
+    }
+    files["man1/" + ownPage + ".1"] = manPage(program, pages);
+    for (const auto& [name, text] : files) {
+        std::error_code error;
+        const auto into = (folder / name).parent_path();
+        std::filesystem::create_directories(into, error);
+        if (error) return into.string() + ": cannot be made: " + error.message();
+        if (auto fault = writeFile(folder / name, text); !fault.empty()) return fault;
+    }
+    return {};
 }
 
 } // namespace physvib

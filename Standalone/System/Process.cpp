@@ -2,7 +2,6 @@
 // Ends the program: by a signal, after all its output was written, or from a thread when it hangs.
 #include "System/Process.h"
 #include "Io/Disk/SystemFile.h"
-#include "System/StandardStreams.h"
 #include <cerrno>
 #include <chrono>
 #include <csignal>

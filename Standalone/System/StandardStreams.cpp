@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stream buffers for std::cout and std::cerr that pass on complete lines.
-#include "System/StandardStreams.h"
+#include "System/Process.h"
 #include <array>
 #include <cerrno>
 #include <condition_variable>

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 
 namespace physvib::test {
 namespace {
@@ -14,8 +13,7 @@ protected:
     void SetUp() override {
         CommandLine::SetUp();
         write("mine.json", profile("12", "[180, 230]"));
-        write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,80,34.13,0.05,0,0\n0.5,349,"
-                          "106.99,0.05,0,0\n");
+        writeHits("hits.csv", "0.1,80,34.13,0.05,0,0\n0.5,349,106.99,0.05,0,0\n");
     }
     static std::string profile(const std::string& q, const std::string& band) {
         return R"({"physvib_actuator": 1, "name": "mine", "description": "", "source": "a test", "kind": "linear", "resonance_hz": 205, "q": )" +
@@ -27,50 +25,40 @@ protected:
 };
 
 TEST_F(ActuatorCommand, ListsWhatIsKnownAndLeavesTheRestEmpty) {
-    const auto outcome = call("actuators");
-    EXPECT_EQ(outcome.exitCode, 0);
-    EXPECT_NE(outcome.out.find("\nlra-205,205,,,,,,,\"Park"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("\nhaptuator-mark-2,,,90,1000,,,,\"Park"), std::string::npos) << outcome.out;
+    const auto outcome = runs("actuators");
+    EXPECT_TRUE(holds(outcome.out, "\nlra-205,205,,,,,,,\"Park"));
+    EXPECT_TRUE(holds(outcome.out, "\nhaptuator-mark-2,,,90,1000,,,,\"Park"));
 }
 
 TEST_F(ActuatorCommand, EqualisesWithAProfileAndSaysUpToWhichLevel) {
-    ASSERT_EQ(call(render).exitCode, 0);
+    runs(render);
     const auto plain = read("a.wav");
-    const auto outcome = call(std::string{render} + "--actuator mine.json");
-    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("equalised from 180 Hz to 230 Hz: flat up to -11."), std::string::npos)
-        << outcome.err;
+    const auto outcome = runs(std::string{render} + "--actuator mine.json");
+    EXPECT_TRUE(holds(outcome.err, "equalised from 180 Hz to 230 Hz: flat up to -11."));
     EXPECT_NE(read("a.wav"), plain);
     const auto equalised = read("a.wav");
-    ASSERT_EQ(call(std::string{render} + "--actuator mine.json --block 17").exitCode, 0);
+    runs(std::string{render} + "--actuator mine.json --block 17");
     EXPECT_EQ(read("a.wav"), equalised);
     write(
         "layout.json",
         R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "mine.json"}, {"x_m": 0.1, "y_m": 0.1}]})");
-    EXPECT_EQ(
-        call("render --from-events hits.csv --layout layout.json --actuator layout --seconds 1 --out two.wav")
-            .exitCode,
-        0);
+    runs("render --from-events hits.csv --layout layout.json --actuator layout --seconds 1 --out two.wav");
 }
 
 TEST_F(ActuatorCommand, RemapsEventsInOrderAndWarnsOfMaterialsThatBecomeOne) {
     const auto outcome =
-        call(std::string{render} + "--actuator mine.json --equalise off --remap on --events b.csv");
-    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("80 Hz and 349 Hz end at 196 Hz and 215 Hz, nearer than one JND of 18 %"),
-              std::string::npos)
-        << outcome.err;
-    EXPECT_NE(outcome.err.find("mine rings down with 53.7 /s"), std::string::npos) << outcome.err;
+        runs(std::string{render} + "--actuator mine.json --equalise off --remap on --events b.csv");
+    EXPECT_TRUE(holds(outcome.err, "80 Hz and 349 Hz end at 196 Hz and 215 Hz, nearer than one JND of 18 %"));
+    EXPECT_TRUE(holds(outcome.err, "mine rings down with 53.7 /s"));
     const auto moved = read("b.csv");
-    EXPECT_NE(moved.find("\n0.100000000,196."), std::string::npos) << moved;
-    ASSERT_EQ(call("render --from-events b.csv --layout phone1 --seconds 1 --out b.wav").exitCode, 0);
+    EXPECT_TRUE(holds(moved, "\n0.100000000,196."));
+    runs("render --from-events b.csv --layout phone1 --seconds 1 --out b.wav");
     // without the line on its origin
     const auto tail = [](const std::string& wav) { return wav.substr(wav.size() - 100'000); };
     EXPECT_EQ(tail(read("b.wav")), tail(read("a.wav")));
-    const auto whole = call("render --from-events hits.csv --layout phone1 --seconds 1 --out c.wav "
+    const auto whole = runs("render --from-events hits.csv --layout phone1 --seconds 1 --out c.wav "
                             "--actuator haptuator-mark-2 --equalise off --remap on");
-    EXPECT_EQ(whole.exitCode, 0) << whole.err;
-    EXPECT_EQ(whole.err.find("JND"), std::string::npos) << whole.err; // there is room
+    EXPECT_FALSE(holds(whole.err, "JND")); // there is room
 }
 
 TEST_F(ActuatorCommand, AMeasuredFullScaleReachesEveryLevelInG) {
@@ -80,63 +68,51 @@ TEST_F(ActuatorCommand, AMeasuredFullScaleReachesEveryLevelInG) {
     const auto own = call(std::string{render} + "--equalise off"),
                calibrated = call(std::string{render} + "--equalise off --actuator mine.json");
     ASSERT_EQ(calibrated.exitCode, 0) << calibrated.err;
-    EXPECT_NE(own.out.find("dBFS (0.0464 g)"), std::string::npos) << own.out;
-    EXPECT_NE(calibrated.out.find("dBFS (0.23 g)"), std::string::npos) << calibrated.out;
+    EXPECT_TRUE(holds(own.out, "dBFS (0.0464 g)"));
+    EXPECT_TRUE(holds(calibrated.out, "dBFS (0.23 g)"));
     const std::string drop =
         "render drop --seconds 1 --out c.wav --events c.csv --layout phone1 --equalise off";
-    EXPECT_NE(call(drop).out.find("1 collision, 0.15 g to 0.15 g"), std::string::npos) << call(drop).out;
-    EXPECT_NE(call(drop + " --actuator mine.json").out.find("1 collision, 0.73 g to 0.73 g"),
-              std::string::npos)
-        << call(drop + " --actuator mine.json").out;
+    EXPECT_TRUE(holds(call(drop).out, "1 collision, 0.15 g to 0.15 g"));
+    EXPECT_TRUE(holds(call(drop + " --actuator mine.json").out, "1 collision, 0.73 g to 0.73 g"));
     EXPECT_EQ(call(std::string{render} + "--equalise off --actuator mine.json --method AF-FV-DRV").err, "")
         << "1.5 g are within 5 g";
     write("layout.json",
           R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "mine.json"}]})");
     const auto other = call("render --from-events hits.csv --layout layout.json --actuator layout --equalise "
                             "off --seconds 1 --out two.wav");
-    EXPECT_NE(other.err.find("layout.json: actuator A: levels are printed with full_scale_g 1 of the layout; "
-                             "mine.json was measured as 5"),
-              std::string::npos)
-        << other.err;
+    EXPECT_TRUE(holds(other.err,
+                      "layout.json: actuator A: levels are printed with full_scale_g 1 of the layout; "
+                      "mine.json was measured as 5"));
 }
 
 TEST_F(ActuatorCommand, LevelsAreToldInDecibelsAndInG) {
-    write("hits.csv",
-          "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,200,10,0.5,0,0\n0.8,200,10,0.007,0,0\n");
+    writeHits("hits.csv", "0.1,200,10,0.5,0,0\n0.8,200,10,0.007,0,0\n");
     write("layout.json",
           R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "full_scale_g": 1.4}]})");
     const auto outcome =
         call("render --from-events hits.csv --layout layout.json --seconds 1 --out a.wav --events b.csv");
-    EXPECT_NE(outcome.out.find("peak -6.1 dBFS (0.69 g)"), std::string::npos) << outcome.out;
-    EXPECT_NE(outcome.out.find("2 collisions, 0.0098 g to 0.70 g, 1 under one step of an 8-bit converter"),
-              std::string::npos)
-        << outcome.out;
+    EXPECT_TRUE(holds(outcome.out, "peak -6.1 dBFS (0.69 g)"));
+    EXPECT_TRUE(
+        holds(outcome.out, "2 collisions, 0.0098 g to 0.70 g, 1 under one step of an 8-bit converter"));
 }
 
 TEST_F(ActuatorCommand, WritesWhenAMotorWouldBeOn) {
     write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m,duration_s\n0.1,200,0,0.5,0,0,0."
                       "03\n0.5,200,0,0.05,0,0,0.03\n0.9,200,0,0.5,0,0,1\n");
-    ASSERT_EQ(call("render --from-events hits.csv --layout phone1 --seconds 1 --pattern p.csv").exitCode, 0);
+    runs("render --from-events hits.csv --layout phone1 --seconds 1 --pattern p.csv");
     const std::string text = read("p.csv");
     EXPECT_EQ(text.substr(text.find('\n') + 1), "channel,on_s,off_s\n1,0.10,0.13\n1,0.90,1.00\n");
-    ASSERT_EQ(call("render --from-events hits.csv --layout phone1 --seconds 1 --pattern p.csv --threshold "
-                   "0.01 --block 7")
-                  .exitCode,
-              0);
-    EXPECT_NE(read("p.csv").find("1,0.50,0.53\n"), std::string::npos);
+    runs("render --from-events hits.csv --layout phone1 --seconds 1 --pattern p.csv --threshold "
+         "0.01 --block 7");
+    EXPECT_TRUE(holds(read("p.csv"), "1,0.50,0.53\n"));
 }
 
 TEST_F(ActuatorCommand, ScalesTheFileToTheVoltageOfTheActuator) {
     const std::string with = std::string{render} + "--actuator haptuator-2 --equalise off ";
     const auto peakOf = [&](const std::string& options) {
-        EXPECT_EQ(call(with + options).exitCode, 0);
-        const std::string wav = read("a.wav");
+        runs(with + options);
         float most = 0.0f;
-        for (std::size_t at = wav.size() - 4 * 48000; at < wav.size(); at += 4) {
-            float sample;
-            std::memcpy(&sample, wav.data() + at, 4);
-            most = std::max(most, std::abs(sample));
-        }
+        for (const float sample : channelsOf("a.wav").at(0)) most = std::max(most, std::abs(sample));
         return most;
     };
     EXPECT_NEAR(peakOf("--interface-volts 6") / peakOf(""), 0.5f, 1e-6f); // the input range is 3 V
@@ -176,19 +152,13 @@ protected:
                std::to_string(volts) + R"(, "rise_time_s": null, "full_scale_g": null, "delay_s": null})";
     }
     std::array<float, 3> peaksOf(const std::string& options) const {
-        const Outcome outcome =
-            call("render --from-events hits.csv --layout layout.json --actuator layout --equalise off "
-                 "--limiter off --rate 8000 --seconds 0.5 --out a.wav " +
-                 options);
-        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-        const std::string wav = read("a.wav");
-        constexpr std::size_t frames = 4000, channels = 3;
+        runs("render --from-events hits.csv --layout layout.json --actuator layout --equalise off "
+             "--limiter off --rate 8000 --seconds 0.5 --out a.wav " +
+             options);
+        const auto channels = channelsOf("a.wav");
         std::array<float, 3> peaks{};
-        for (std::size_t n = 0; n < frames * channels && wav.size() > 4 * frames * channels; ++n) {
-            float sample = 0.0f;
-            std::memcpy(&sample, wav.data() + wav.size() - 4 * (frames * channels - n), 4);
-            peaks[n % channels] = std::max(peaks[n % channels], std::abs(sample));
-        }
+        for (std::size_t j = 0; j < peaks.size(); ++j)
+            for (const float sample : channels.at(j)) peaks[j] = std::max(peaks[j], std::abs(sample));
         return peaks;
     }
 };
@@ -200,8 +170,7 @@ TEST_F(Voltages, ScaleEachChannelByItsOwnActuator) {
     write("layout.json",
           R"({"extent_m": [0.2, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "a.json"}, )"
           R"({"x_m": 0.1, "y_m": 0, "actuator": "b.json"}, {"x_m": 0.2, "y_m": 0, "actuator": "c.json"}]})");
-    write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.01,200,10,0.5,0,0\n"
-                      "0.02,200,10,0.5,0.1,0\n0.03,200,10,0.5,0.2,0\n");
+    writeHits("hits.csv", "0.01,200,10,0.5,0,0\n0.02,200,10,0.5,0.1,0\n0.03,200,10,0.5,0.2,0\n");
     const auto plain = peaksOf("");
     for (const double volts : {4.0, 8.0, 20.0}) {
         const auto scaled = peaksOf("--interface-volts " + std::to_string(volts));

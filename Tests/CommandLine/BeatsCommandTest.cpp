@@ -32,8 +32,7 @@ protected:
 TEST_F(BeatsCommand, WritesTheBeatsOfASongAsStrikesOnTheEnchantersOfTheirBands) {
     const BeatSong song{6.0, 44100, 7};
     writeSong(song, 2, 44100);
-    const auto outcome = call("beats song.wav --out beats.csv --low C --strike-level 0.3");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    runs("beats song.wav --out beats.csv --low C --strike-level 0.3");
     const auto events = readEventsCsv(read("beats.csv"), "beats.csv");
     ASSERT_EQ(events.error, "");
     EXPECT_EQ(events.value.field, (FieldSize{0.12, 0.06})) << "beats are struck on the layout";
@@ -54,10 +53,9 @@ TEST_F(BeatsCommand, WritesTheBeatsOfASongAsStrikesOnTheEnchantersOfTheirBands) 
         EXPECT_TRUE(!(isLow || isHigh) || e.y == 0.0);
         EXPECT_TRUE(!isLow || e.x == 0.0);
     }
-    ASSERT_EQ(call("beats song.wav --out again.csv --low C --strike-level 0.3 --render felt.wav").exitCode,
-              0);
+    runs("beats song.wav --out again.csv --low C --strike-level 0.3 --render felt.wav");
     EXPECT_EQ(read("again.csv"), read("beats.csv"));
-    ASSERT_EQ(call("render --from-events beats.csv --seconds 6 --rate 44100 --out rendered.wav").exitCode, 0);
+    runs("render --from-events beats.csv --seconds 6 --rate 44100 --out rendered.wav");
     const auto samplesOf = [&](const std::string& name) {
         const std::string bytes = read(name);
         return bytes.substr(bytes.find("data") + 8, song.samples.size() * 16);
@@ -68,8 +66,7 @@ TEST_F(BeatsCommand, WritesTheBeatsOfASongAsStrikesOnTheEnchantersOfTheirBands) 
 TEST_F(BeatsCommand, GivesTheMusicItselfToThoseWhoAreChosen) {
     const BeatSong song{3.0, 48000, 7};
     writeSong(song, 1, 48000);
-    ASSERT_EQ(call("beats song.wav --render through.wav --through --enchanters AC --layout ring4").exitCode,
-              0);
+    runs("beats song.wav --render through.wav --through --enchanters AC --layout ring4");
     const std::string bytes = read("through.wav"),
                       samples = bytes.substr(bytes.find("data") + 8, song.samples.size() * 16);
     std::array<float, 4> peaks{};
@@ -91,8 +88,7 @@ TEST_F(BeatsCommand, TakesMoreThanARecordingMayHave) {
         part += static_cast<char>(128 + std::lround(80.0f * std::clamp(sample, -1.5f, 1.5f)));
     for (int i = 0; i < 330; ++i) whole += part;
     write("evening.wav", test::wavBytes({.rateHz = 8000, .bits = 8}, whole));
-    const auto outcome = call("beats evening.wav --render felt.wav --through --layout phone1");
-    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    runs("beats evening.wav --render felt.wav --through --layout phone1");
     refuses("material evening.wav", 1, "expected at most 600 s, found 660 s", 2);
 }
 

@@ -4,8 +4,8 @@
 #include "Scene/ActuatorFile.h"
 #include "Scene/LayoutFile.h"
 #include "Support/SimulatedActuator.h"
+#include "Support/WavBytes.h"
 #include <algorithm>
-#include <cstring>
 #include <limits>
 #include <sstream>
 #include <vector>
@@ -17,14 +17,8 @@ class CalibrateCommand : public test::CommandLine {
 protected:
     void SetUp() override {
         CommandLine::SetUp();
-        ASSERT_EQ(call("calibrate --sweep sweep.wav --seconds 2 --rate 8000").exitCode, 0);
-        const std::string wav = read("sweep.wav");
-        const std::size_t data = wav.find("data") + 8;
-        std::uint32_t bytes = 0;
-        std::memcpy(&bytes, wav.data() + data - 4, 4);
-        head_ = wav.substr(0, data);
-        sweep_.resize(bytes / 4);
-        std::memcpy(sweep_.data(), wav.data() + data, bytes);
+        runs("calibrate --sweep sweep.wav --seconds 2 --rate 8000");
+        sweep_ = channelsOf("sweep.wav").at(0);
         ASSERT_EQ(sweep_.size(), 3u * 8000);
     }
     std::vector<float> felt() const {
@@ -35,25 +29,17 @@ protected:
         return out;
     }
     void record(const std::vector<float>& samples) const {
-        const auto bytes = static_cast<std::uint32_t>(4 * samples.size());
-        std::string wav = head_ + std::string(reinterpret_cast<const char*>(samples.data()), bytes);
-        const auto put = [&wav](std::size_t at, std::uint32_t number) {
-            std::memcpy(wav.data() + at, &number, 4);
-        };
-        put(4, static_cast<std::uint32_t>(wav.size()) - 8);
-        put(head_.size() - 4, bytes);
-        write("felt.wav", wav);
+        const std::string bytes{reinterpret_cast<const char*>(samples.data()), 4 * samples.size()};
+        write("felt.wav", test::wavBytes({.format = 3, .rateHz = 8000, .bits = 32}, bytes));
     }
     static constexpr const char* pair = "calibrate --played sweep.wav --recorded felt.wav --out mine.json ";
 
-    std::string head_;
     std::vector<float> sweep_;
 };
 
 TEST_F(CalibrateCommand, WritesTheProfileOfWhatWasRecorded) {
     record(felt());
-    const auto outcome = call(std::string{pair} + "--name coin --g-per-unit 4 --drive-volts 2.5");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    runs(std::string{pair} + "--name coin --g-per-unit 4 --drive-volts 2.5");
     const auto profile = loadActuator(folder_ / "mine.json");
     ASSERT_TRUE(profile) << profile.error;
     const ActuatorProfile& p = profile.value;
@@ -63,7 +49,7 @@ TEST_F(CalibrateCommand, WritesTheProfileOfWhatWasRecorded) {
     EXPECT_NEAR(*p.fullScaleG, 2.0, 0.1);
     EXPECT_EQ(p.driveLimitVolts, 2.5);
     EXPECT_EQ(equaliserFault(p), "");
-    ASSERT_EQ(call(std::string{pair} + "--band 150-300").exitCode, 0);
+    runs(std::string{pair} + "--band 150-300");
     EXPECT_EQ(loadActuator(folder_ / "mine.json").value.bandOrNone(), (FrequencyBand{150, 300}));
     EXPECT_FALSE(loadActuator(folder_ / "mine.json").value.fullScaleG); // nobody said what a sample is
 }
@@ -72,7 +58,7 @@ TEST_F(CalibrateCommand, WiredTheOtherWayRoundAnActuatorIsAsStrong) {
     std::vector<float> turned = felt();
     for (float& sample : turned) sample = -sample;
     record(turned);
-    ASSERT_EQ(call(std::string{pair} + "--g-per-unit 4").exitCode, 0);
+    runs(std::string{pair} + "--g-per-unit 4");
     const auto profile = loadActuator(folder_ / "mine.json");
     ASSERT_TRUE(profile) << profile.error;
     EXPECT_NEAR(*profile.value.fullScaleG, 2.0, 0.1);
@@ -81,11 +67,9 @@ TEST_F(CalibrateCommand, WiredTheOtherWayRoundAnActuatorIsAsStrong) {
 TEST_F(CalibrateCommand, WritesTheLayoutThatHasItsFullScale) {
     record(felt());
     const auto plain = call(std::string{pair} + "--g-per-unit 10");
-    EXPECT_NE(plain.out.find("full scale 5.0"), std::string::npos) << plain.out;
-    EXPECT_NE(plain.out.find("--layout-out FILE.json"), std::string::npos) << "it is offered: " << plain.out;
-    const auto outcome =
-        call(std::string{pair} + "--g-per-unit 10 --layout phone4 --place B --layout-out four.json");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_TRUE(holds(plain.out, "full scale 5.0"));
+    EXPECT_TRUE(holds(plain.out, "--layout-out FILE.json")); // it is offered
+    runs(std::string{pair} + "--g-per-unit 10 --layout phone4 --place B --layout-out four.json");
     const auto layout = loadLayout(folder_ / "four.json");
     ASSERT_TRUE(layout) << layout.error;
     EXPECT_NEAR(layout.value.enchanters[1].fullScaleG, 5.0, 0.25);
@@ -139,27 +123,14 @@ class MaterialCommand : public test::CommandLine {
 protected:
     /// What `render` makes of one hit on one enchanter.
     void record(const std::string& hit, const std::string& seconds = "1") const {
-        write("hit.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n" + hit + "\n");
-        ASSERT_EQ(call("render --from-events hit.csv --layout phone1 --seconds " + seconds + " --out hit.wav")
-                      .exitCode,
-                  0);
-    }
-    /// 16 bits, one channel.
-    void writeWav(const std::string& name, std::uint32_t rate, std::uint32_t frames,
-                  const std::string& data) const {
-        const auto number = [](std::uint32_t value, std::size_t bytes) {
-            return std::string(reinterpret_cast<const char*>(&value), bytes);
-        };
-        write(name, "RIFF" + number(36 + 2 * frames, 4) + "WAVEfmt " + number(16, 4) + number(1, 2) +
-                        number(1, 2) + number(rate, 4) + number(2 * rate, 4) + number(2, 2) + number(16, 2) +
-                        "data" + number(2 * frames, 4) + data);
+        writeHits("hit.csv", hit + "\n");
+        runs("render --from-events hit.csv --layout phone1 --seconds " + seconds + " --out hit.wav");
     }
 };
 
 TEST_F(MaterialCommand, PrintsFrequencyAndDecayOfARenderedHit) {
     record("0.1,349,106.99,0.8,0,0");
-    const auto outcome = call("material hit.wav --band 90-1000");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto outcome = runs("material hit.wav --band 90-1000");
     std::istringstream lines{outcome.out};
     std::string header, row, more;
     std::getline(lines, header);
@@ -168,18 +139,17 @@ TEST_F(MaterialCommand, PrintsFrequencyAndDecayOfARenderedHit) {
     EXPECT_FALSE(std::getline(lines, more));
     EXPECT_NEAR(std::stod(row), 349, 0.17);
     EXPECT_NEAR(std::stod(row.substr(row.find(',') + 1)), 106.99, 0.53);
-    EXPECT_NE(outcome.err.find("confidence high"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(holds(outcome.err, "confidence high"));
     EXPECT_EQ(call("material hit.wav --band 90-1000").out, outcome.out);
-    EXPECT_EQ(call("material hit.wav --rule two-peaks").exitCode, 0);
+    runs("material hit.wav --rule two-peaks");
 }
 
 TEST_F(MaterialCommand, ListsTheThreeMeasuredPairsAndTheirSource) {
-    const auto outcome = call("material --list");
-    EXPECT_EQ(outcome.exitCode, 0);
+    const auto outcome = runs("material --list");
     EXPECT_EQ(outcome.out.rfind("# Table 5.1", 0), 0u) << outcome.out;
     for (const char* pair :
          {"\nconcrete block,80,34.13\n", "\nwooden board,349,106.99\n", "\nsteel plate,430,11.97\n"})
-        EXPECT_NE(outcome.out.find(pair), std::string::npos) << pair;
+        EXPECT_TRUE(holds(outcome.out, pair));
 }
 
 TEST_F(MaterialCommand, BadRecordingsAreOneLine) {
@@ -188,11 +158,11 @@ TEST_F(MaterialCommand, BadRecordingsAreOneLine) {
     write("text.wav", "not a recording");
     refuses("material text.wav", 1, "text.wav: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 3);
     refuses("material none.wav", 1, "none.wav: cannot be read", 3);
-    writeWav("one.wav", 48000, 1, {"\1\2", 2});
+    write("one.wav", test::wavBytes({}, "\1\2"));
     refuses("material one.wav", 1, "one.wav: expected at least 0.01 s, found 1 sample", 4);
-    writeWav("hour.wav", 5000, 3600 * 5000, std::string(2u * 3600 * 5000, '\0'));
+    write("hour.wav", test::wavBytes({.rateHz = 5000}, std::string(2u * 3600 * 5000, '\0')));
     refuses("material hour.wav", 1, "hour.wav: expected at most 600 s", 5);
-    writeWav("none-in-it.wav", 48000, 0, "");
+    write("none-in-it.wav", test::wavBytes({}, ""));
     refuses("material none-in-it.wav", 1, "none-in-it.wav: expected samples, found none", 6);
 }
 
@@ -206,12 +176,10 @@ constexpr const char* ridges =
 
 TEST_F(MaterialCommand, TexturesOfARenderedScrapeAreThoseOfItsScene) {
     write("ridges.json", ridges);
-    ASSERT_EQ(call("render ridges.json --layout phone1 --seconds 3 --limiter off --out scrape.wav").exitCode,
-              0);
+    runs("render ridges.json --layout phone1 --seconds 3 --limiter off --out scrape.wav");
     const double newtons = 10.0 * 10.0 * 3.14159265 * 0.2 * 0.2;
     const auto outcome =
-        call("material --texture scrape.wav --speed 0.8 --mass 20 --load " + std::to_string(newtons));
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        runs("material --texture scrape.wav --speed 0.8 --mass 20 --load " + std::to_string(newtons));
     std::istringstream lines{outcome.out};
     std::string header, cell;
     std::getline(lines, header);
@@ -222,13 +190,12 @@ TEST_F(MaterialCommand, TexturesOfARenderedScrapeAreThoseOfItsScene) {
     }
     std::getline(lines, cell);
     EXPECT_EQ(cell, "regular");
-    EXPECT_NE(outcome.err.find(" grains a second, "), std::string::npos) << outcome.err;
+    EXPECT_TRUE(holds(outcome.err, " grains a second, "));
 }
 
 TEST_F(MaterialCommand, ModesAreTheOvertonesOfABody) {
     record("0.1,349,106.99,0.5,0,0\n0.1,610,150,0.25,0,0");
-    const auto outcome = call("material hit.wav --modes 4");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto outcome = runs("material hit.wav --modes 4");
     std::istringstream lines{outcome.out};
     std::string head;
     std::getline(lines, head);

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Calls of the `physvib` program inside a folder of the test's own, and what they left.
 #pragma once
+#include "Io/Disk/ReadFile.h"
 #include "Support/Has.h"
+#include "Support/Holds.h"
+#include "Support/ReadWav.h"
 #include "TestPlaces.h"
 #include <algorithm>
 #include <cstdlib>
@@ -76,6 +79,11 @@ protected:
         std::ofstream{folder_ / name, std::ios::binary} << text;
     }
 
+    /// A list of events, by its rows.
+    void writeHits(const std::string& name, const std::string& rows) const {
+        write(name, "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n" + rows);
+    }
+
     /// Names of all files but the captured output.
     std::vector<std::string> files() const {
         std::vector<std::string> names;
@@ -83,6 +91,20 @@ protected:
             if (const auto name = entry.path().filename().string(); name != ".out" && name != ".err")
                 names.push_back(name);
         return names;
+    }
+    /// The same of a call that has to succeed.
+    Outcome runs(const std::string& arguments, const std::string& before = {}) const {
+        Outcome outcome = call(arguments, before);
+        EXPECT_EQ(outcome.exitCode, 0) << arguments << "\nsaid: " << outcome.err;
+        return outcome;
+    }
+    /// Samples of a WAV of floats, as `render` writes it, by channel.
+    std::vector<std::vector<float>> channelsOf(const std::string& name) const {
+        const OpenFile file{std::fopen((folder_ / name).c_str(), "rb")};
+        if (!file) return {};
+        const auto sound = readWav(*file);
+        EXPECT_EQ(sound.error, "") << name;
+        return sound.value.channels;
     }
     /// The call fails with that code, says one line that holds `words`, and leaves no file but `kept`.
     void refuses(const std::string& arguments, int exitCode, const std::string& words,

@@ -2,9 +2,9 @@
 // `physvib attenuation FOLDER` and `physvib coupling`: recordings whose answers are known.
 #include "Calls.h"
 #include "Lab/Study/Coupling.h"
+#include "Support/WavBytes.h"
 #include "TestPlaces.h"
 #include <cmath>
-#include <cstring>
 #include <numbers>
 #include <sstream>
 
@@ -28,14 +28,8 @@ protected:
                               std::cos(2.0 * std::numbers::pi * (hz * n / rate + tone.degrees / 360.0)));
                 data.append(reinterpret_cast<const char*>(&x), 4);
             }
-        const auto word = [](std::uint32_t value, std::size_t bytes) {
-            return std::string(reinterpret_cast<const char*>(&value), bytes);
-        };
         const auto count = static_cast<std::uint32_t>(channels.size());
-        write(name, "RIFF" + word(36 + static_cast<std::uint32_t>(data.size()), 4) + "WAVEfmt " +
-                        word(16, 4) + word(3, 2) + word(count, 2) + word(rate, 4) +
-                        word(rate * count * 4, 4) + word(count * 4, 2) + word(32, 2) + "data" +
-                        word(static_cast<std::uint32_t>(data.size()), 4) + data);
+        write(name, test::wavBytes({.format = 3, .channels = count, .rateHz = rate, .bits = 32}, data));
     }
     void recordLayers() const {
         std::filesystem::create_directory(folder_ / "study");
@@ -60,8 +54,7 @@ protected:
 
 TEST_F(Isolation, AFolderOfConditionsIsATableOfGammaWithCurves) {
     recordLayers();
-    const auto outcome = call("attenuation study --export all.csv --picture gamma.svg");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    const auto outcome = runs("attenuation study --export all.csv --picture gamma.svg");
     std::istringstream lines{outcome.out};
     std::string line;
     std::getline(lines, line);
@@ -77,7 +70,7 @@ TEST_F(Isolation, AFolderOfConditionsIsATableOfGammaWithCurves) {
     EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 9) << all;
     const std::string picture = read("gamma.svg");
     for (const char* words : {"<title>Isolation, axis x</title>", ">0030-15, 3 mm, 1.8 V<"})
-        EXPECT_NE(picture.find(words), std::string::npos) << words;
+        EXPECT_TRUE(holds(picture, words));
 }
 
 TEST_F(Isolation, ASoftenerIsAFactorOfItsOwn) {
@@ -92,7 +85,7 @@ TEST_F(Isolation, ASoftenerIsAFactorOfItsOwn) {
     EXPECT_TRUE(outcome.out.starts_with("material,softener_percent,thickness_mm,"))
         << outcome.out << outcome.err;
     EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 9) << outcome.out;
-    EXPECT_NE(read("gamma.svg").find(">0030, 15 %, 3 mm<"), std::string::npos);
+    EXPECT_TRUE(holds(read("gamma.svg"), ">0030, 15 %, 3 mm<"));
 }
 
 TEST_F(Isolation, WhatIsMissingOfAStudyIsTold) {
@@ -122,8 +115,7 @@ TEST_F(Isolation, TheCouplingOfALayoutIsWrittenFromRecordings) {
     record("rec/a2.wav", 205, {{0.25, 200.0}, {0.05, 110.0}}); // half the drive, turned round
     record("rec/b.wav", 205, {{0.1, 5.0}, {0.4, 65.0}});
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,A,205\na2.wav,A,205\nb.wav,B,205\n");
-    const auto outcome = call("coupling rec --layout two.json --out c.json");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    runs("coupling rec --layout two.json --out c.json");
     const auto coupling = readCoupling(read("c.json"), "c.json");
     ASSERT_TRUE(coupling) << coupling.error;
     EXPECT_EQ(coupling.value.frequenciesHz, std::vector<double>{205.0});
@@ -137,7 +129,7 @@ TEST_F(Isolation, TheCouplingOfALayoutIsWrittenFromRecordings) {
     near(1, 1, 1.0, 0.0);
     near(1, 0, 0.1, -90.0); // 0.2 of A's acceleration is a tenth of what B does at full scale
     near(0, 1, 0.5, -60.0);
-    EXPECT_EQ(call("render drop --layout two.json --seconds 1 --coupling c.json --out drop.wav").exitCode, 0);
+    runs("render drop --layout two.json --seconds 1 --coupling c.json --out drop.wav");
     std::filesystem::remove(folder_ / "drop.wav");
     write("rec/conditions.csv", "file,driven,frequency_hz\na1.wav,A,205\n");
     refuses("coupling rec --layout two.json --out d.json", 1,
@@ -164,7 +156,7 @@ class CouplingCommand : public test::CommandLine {
 protected:
     void SetUp() override {
         CommandLine::SetUp();
-        write("hits.csv", hits());
+        writeHits("hits.csv", hits());
         write(
             "four.json",
             R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0.1}, {"x_m": 0.1, "y_m": 0.1}, {"x_m": 0, "y_m": 0}, {"x_m": 0.1, "y_m": 0}]})");
@@ -173,7 +165,6 @@ protected:
 
     static std::string hits() {
         std::ostringstream text;
-        text << "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n";
         for (int k = 0; k < columns * rows; ++k)
             text << 0.2 * k + 0.01 << ',' << frequencyHz << ",40,0.5," << 0.1 * (k % columns) / (columns - 1)
                  << ',' << 0.1 * (k / columns) / (rows - 1) << '\n';
@@ -202,19 +193,13 @@ protected:
     }
 
     Signals rendered(const std::string& options) const {
-        const auto outcome = call(render + options);
-        EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+        runs(render + options);
         constexpr std::size_t frames = framesPerHit * columns * rows;
-        const std::string wav = read("a.wav");
+        const auto channels = channelsOf("a.wav");
         Signals x(enchanters, std::vector<double>(frames));
-        if (wav.size() < 4 * enchanters * frames) return ADD_FAILURE() << "too short", x;
-        const char* at = wav.data() + wav.size() - 4 * enchanters * frames;
-        for (std::size_t n = 0; n < frames; ++n)
-            for (std::size_t j = 0; j < enchanters; ++j, at += 4) {
-                float sample;
-                std::memcpy(&sample, at, 4);
-                x[j][n] = static_cast<double>(sample);
-            }
+        if (channels.size() != enchanters || channels[0].size() < frames)
+            return ADD_FAILURE() << "too short", x;
+        for (std::size_t j = 0; j < enchanters; ++j) std::copy_n(channels[j].begin(), frames, x[j].begin());
         return x;
     }
 
@@ -287,18 +272,13 @@ TEST_F(CouplingCommand, TheDriveIsAtMostThreeDecibelsStrongerEvenWhereThatIsNotE
 }
 
 TEST_F(CouplingCommand, TellsWhatIsLeftAndWhereTheDriveCameFrom) {
-    const auto outcome = call(render + "--coupling c.json --events b.csv");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.err.find("coupling: what is felt differs from what is wanted by 0.0 %, without "
-                               "compensation by 30.0 %; by 2"),
-              std::string::npos)
-        << outcome.err;
-    EXPECT_NE(outcome.err.find(" where it is off by up to 2 dB and 20 degrees; strongest drive "),
-              std::string::npos)
-        << outcome.err;
-    EXPECT_NE(read("b.csv").find("coupling=c.json"), std::string::npos);
+    const auto outcome = runs(render + "--coupling c.json --events b.csv");
+    EXPECT_TRUE(holds(outcome.err, "coupling: what is felt differs from what is wanted by 0.0 %, without "
+                                   "compensation by 30.0 %; by 2"));
+    EXPECT_TRUE(holds(outcome.err, " where it is off by up to 2 dB and 20 degrees; strongest drive "));
+    EXPECT_TRUE(holds(read("b.csv"), "coupling=c.json"));
     const std::string once = read("a.wav");
-    ASSERT_EQ(call(render + "--coupling c.json --events b.csv --block 17").exitCode, 0);
+    runs(render + "--coupling c.json --events b.csv --block 17");
     EXPECT_EQ(read("a.wav"), once);
 }
 

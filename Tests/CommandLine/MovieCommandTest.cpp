@@ -75,12 +75,9 @@ TEST(RenderMovie, EachActuatorShinesByWhatItPlays) {
 }
 
 TEST_F(MovieCommand, LastsAsLongAsTheRenderAndMoves) {
-    const auto made = call("render drop --seconds 1.5 --movie drop.webp --events drop.csv");
-    ASSERT_EQ(made.exitCode, 0) << made.err;
-    EXPECT_NE(
-        made.out.find("drop.webp  the world, its impacts and every channel in time, 20 pictures per second"),
-        std::string::npos)
-        << made.out;
+    const auto made = runs("render drop --seconds 1.5 --movie drop.webp --events drop.csv");
+    EXPECT_TRUE(holds(made.out,
+                      "drop.webp  the world, its impacts and every channel in time, 20 pictures per second"));
     const auto movie = animationOf(read("drop.webp"));
     EXPECT_EQ(movie.width, 960u);
     EXPECT_EQ(movie.height, 640u);
@@ -88,10 +85,9 @@ TEST_F(MovieCommand, LastsAsLongAsTheRenderAndMoves) {
     EXPECT_EQ(movie.frames, 30u); // the time in its corner changes with each
     EXPECT_LT(movie.share, 0.9);  // and the rest stays
     EXPECT_GT(movie.share, 0.05);
-    ASSERT_EQ(call("render drop --seconds 1.5 --movie again.webp").exitCode, 0);
+    runs("render drop --seconds 1.5 --movie again.webp");
     EXPECT_EQ(read("drop.webp"), read("again.webp"));
-    EXPECT_EQ(call("render --from-events drop.csv --field 8,4.5 --seconds 0.2 --movie list.webp").exitCode,
-              0);
+    runs("render --from-events drop.csv --field 8,4.5 --seconds 0.2 --movie list.webp");
     EXPECT_EQ(animationOf(read("list.webp")).durationMs, 200u);
 }
 
@@ -106,8 +102,7 @@ TEST_F(MovieCommand, WithoutFfmpegItSaysWhatIsMissing) {
     const auto alone = call("render drop --seconds 0.2 --movie drop.mp4 --out drop.wav",
                             "env() { PATH= /usr/bin/env \"$@\"; }; ");
     EXPECT_EQ(alone.exitCode, 1);
-    EXPECT_NE(alone.err.find("drop.mp4: .gif and .mp4 need the program ffmpeg"), std::string::npos)
-        << alone.err;
+    EXPECT_TRUE(holds(alone.err, "drop.mp4: .gif and .mp4 need the program ffmpeg"));
     EXPECT_EQ(files().size(), 0u);
 }
 
@@ -116,13 +111,12 @@ TEST_F(MovieCommand, HandsPicturesAndWhatIsHeardToFfmpeg) {
     write("tools/ffmpeg", "#!/bin/sh\necho \"$@\" >told\nwhile [ $# -gt 1 ]; do [ \"$1\" = -i ] && wc -c "
                           "<\"$2\" >>sizes; shift; done\nprintf movie >\"$1\"\n");
     std::filesystem::permissions(folder_ / "tools/ffmpeg", std::filesystem::perms::owner_all);
-    const auto made = call("render drop --seconds 0.5 --movie drop.mp4",
-                           "PATH=\"" + (folder_ / "tools").string() + ":$PATH\"; export PATH; ");
-    ASSERT_EQ(made.exitCode, 0) << made.err;
+    runs("render drop --seconds 0.5 --movie drop.mp4",
+         "PATH=\"" + (folder_ / "tools").string() + ":$PATH\"; export PATH; ");
     EXPECT_EQ(read("drop.mp4"), "movie");
-    EXPECT_NE(read("told").find("-c:v png -framerate 20"), std::string::npos);
-    EXPECT_NE(read("told").find("-f f32le -ac 1 -ar 48000"), std::string::npos);
-    EXPECT_NE(read("sizes").find("\n96000\n"), std::string::npos) << read("sizes"); // 24,000 samples
+    EXPECT_TRUE(holds(read("told"), "-c:v png -framerate 20"));
+    EXPECT_TRUE(holds(read("told"), "-f f32le -ac 1 -ar 48000"));
+    EXPECT_TRUE(holds(read("sizes"), "\n96000\n")); // 24,000 samples
     EXPECT_EQ(files().size(), 4u); // nothing of what ffmpeg read is left: tools, told, sizes, drop.mp4
 }
 

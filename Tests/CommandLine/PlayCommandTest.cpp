@@ -98,13 +98,12 @@ protected:
 };
 
 TEST_F(SoundPlay, WhatLeavesIsTheFileToTheBit) {
-    ASSERT_EQ(call("render shake-the-box --seconds 1.5 --out box.wav").exitCode, 0);
-    const auto played = call(std::string{"play box.wav --record own.wav --save own.json"} + nobody);
-    ASSERT_EQ(played.exitCode, 0) << played.err;
+    runs("render shake-the-box --seconds 1.5 --out box.wav");
+    const auto played = runs(std::string{"play box.wav --record own.wav --save own.json"} + nobody);
     const auto file = felt("box.wav", 4), own = felt("own.wav", 4);
     ASSERT_GT(file.size(), 40'000u);
     EXPECT_TRUE(own == file) << own.size() << " samples of " << file.size();
-    EXPECT_NE(played.out.find("; 4 events left, 0 late, 0 dropped"), std::string::npos) << played.out;
+    EXPECT_TRUE(holds(played.out, "; 4 events left, 0 late, 0 dropped"));
     std::istringstream told{played.out.substr(played.out.find("peaks ") + 6)};
     for (std::size_t j = 0; j < 4; ++j) {
         double peak = 0.0, most = 0.0;
@@ -113,14 +112,13 @@ TEST_F(SoundPlay, WhatLeavesIsTheFileToTheBit) {
             most = std::max(most, std::abs(static_cast<double>(file[n])));
         EXPECT_NEAR(peak, most, 0.001) << "what left at actuator " << j << ": " << played.out;
     }
-    ASSERT_EQ(call("render own.json --out again.wav").exitCode, 0);
+    runs("render own.json --out again.wav");
     EXPECT_TRUE(felt("again.wav", 4) == file) << "saved, it is rendered again";
 }
 
 TEST_F(SoundPlay, TwoChannelsAreTwoActuatorsAndTheLevelIsLowUnlessAskedFor) {
-    ASSERT_EQ(call("render drop --seconds 1.2 --layout phone2 --out two.wav").exitCode, 0);
-    const auto played = call("play two.wav --device 'None:no device' --record own.wav");
-    ASSERT_EQ(played.exitCode, 0) << played.err;
+    runs("render drop --seconds 1.2 --layout phone2 --out two.wav");
+    runs("play two.wav --device 'None:no device' --record own.wav");
     EXPECT_TRUE(felt("own.wav", 2) == felt("two.wav", 2)) << "the recording is before the master level";
     refuses("play two.wav --layout phone4" + std::string{nobody}, 2,
             "two.wav: expected a channel for each of 4 actuators (--layout), or one channel, found 2", 2);
@@ -137,10 +135,10 @@ TEST_F(SoundPlay, WhatFitsNothingIsOneLine) {
         six += std::string{*label > 'A' ? ", " : ""} + R"({"label": ")" + label + R"(", "x_m": 0.)" +
                std::to_string(*label - 'A') + R"(, "y_m": 0})";
     write("six.json", six + "]}");
-    ASSERT_EQ(call("render drop --seconds 1.2 --layout six.json --out six.wav").exitCode, 0);
+    runs("render drop --seconds 1.2 --layout six.json --out six.wav");
     refuses("play six.wav" + std::string{nobody}, 1,
             "six.wav: 6 channels: expected --layout with a file of as many actuators", 3);
-    EXPECT_EQ(call("play six.wav --layout six.json --seconds 0.1" + std::string{nobody}).exitCode, 0);
+    runs("play six.wav --layout six.json --seconds 0.1" + std::string{nobody});
 }
 
 TEST_F(SoundPlay, WhatExceedsFullScaleOrIsNoNumberIsTold) {
@@ -152,11 +150,10 @@ TEST_F(SoundPlay, WhatExceedsFullScaleOrIsNoNumberIsTold) {
         return test::wavBytes({.format = 3, .bits = 32}, samples);
     };
     write("loud.wav", sound(327.0f));
-    const auto loud = call("play loud.wav" + std::string{nobody});
-    EXPECT_EQ(loud.exitCode, 0) << loud.err;
-    EXPECT_NE(loud.err.find("loud.wav: exceeds full scale by 50.3 dB"), std::string::npos) << loud.err;
+    const auto loud = runs("play loud.wav" + std::string{nobody});
+    EXPECT_TRUE(holds(loud.err, "loud.wav: exceeds full scale by 50.3 dB"));
     write("full.wav", sound(1.0f));
-    EXPECT_EQ(call("play full.wav" + std::string{nobody}).err.find("exceeds"), std::string::npos);
+    EXPECT_FALSE(holds(call("play full.wav" + std::string{nobody}).err, "exceeds"));
     write("nan.wav", sound(std::numeric_limits<float>::quiet_NaN()));
     for (const std::string& words :
          {"play nan.wav" + std::string{nobody}, std::string{"beats nan.wav --out b.csv"},
@@ -170,20 +167,17 @@ class PadsCommand : public test::CommandLine {
 protected:
     void SetUp() override {
         CommandLine::SetUp();
-        write("hits.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,60,30,0.05,0.02,0.03\n0.5,"
-                          "349,106.99,0.5,0.1,0.03\n");
+        writeHits("hits.csv", "0.1,60,30,0.05,0.02,0.03\n0.5,349,106.99,0.5,0.1,0.03\n");
     }
 };
 
 TEST_F(PadsCommand, RenderWritesWhatMotorsWouldGetInsteadOfSamples) {
-    const auto outcome = call("render --from-events hits.csv --seconds 1 --pad pad-xbox --out motors.csv");
-    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("motors.csv  what two motors of pad-xbox would get: "), std::string::npos)
-        << outcome.out;
+    const auto outcome = runs("render --from-events hits.csv --seconds 1 --pad pad-xbox --out motors.csv");
+    EXPECT_TRUE(holds(outcome.out, "motors.csv  what two motors of pad-xbox would get: "));
     std::istringstream file{read("motors.csv")};
     std::string line;
     std::getline(file, line);
-    EXPECT_NE(line.find("pad=pad-xbox"), std::string::npos) << line;
+    EXPECT_TRUE(holds(line, "pad=pad-xbox"));
     std::getline(file, line);
     EXPECT_EQ(line, "time_s,low,high");
     double before = -1.0, lowMost = 0.0, highMost = 0.0;
@@ -201,11 +195,9 @@ TEST_F(PadsCommand, RenderWritesWhatMotorsWouldGetInsteadOfSamples) {
     }
     EXPECT_GE(lowMost, 0.3) << "a hit of 60 Hz";
     EXPECT_GE(highMost, 0.3) << "a hit of 349 Hz";
-    EXPECT_NE(last.find(",0.00,0.00"), std::string::npos);
+    EXPECT_TRUE(holds(last, ",0.00,0.00"));
     const auto all = read("motors.csv");
-    ASSERT_EQ(
-        call("render --from-events hits.csv --seconds 1 --pad pad-xbox --out motors.csv --block 17").exitCode,
-        0);
+    runs("render --from-events hits.csv --seconds 1 --pad pad-xbox --out motors.csv --block 17");
     EXPECT_EQ(read("motors.csv"), all);
 }
 
@@ -229,9 +221,8 @@ TEST_F(PadsCommand, AWrongPadIsOneLineAndLeavesNothing) {
 }
 
 TEST_F(PadsCommand, TheCoilsOfADualSenseAreALayoutOfTwoGrips) {
-    const auto outcome = call("render --from-events hits.csv --seconds 1 --layout dualsense --out coils.wav");
-    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("2 channels"), std::string::npos) << outcome.out;
+    const auto outcome = runs("render --from-events hits.csv --seconds 1 --layout dualsense --out coils.wav");
+    EXPECT_TRUE(holds(outcome.out, "2 channels"));
 }
 
 } // namespace

@@ -12,21 +12,11 @@ class SoundMethod : public test::CommandLine {
 protected:
     void SetUp() override {
         CommandLine::SetUp();
-        write("one.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,349,40,0.8,0,0\n");
-        ASSERT_EQ(call("render --from-events one.csv --layout phone1 --seconds 1 --out knock.wav").exitCode,
-                  0);
-        write("hits.csv",
-              "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.2,349,40,0.4,0,0\n0.6,349,40,0.1,0,0\n");
+        writeHits("one.csv", "0.1,349,40,0.8,0,0\n");
+        runs("render --from-events one.csv --layout phone1 --seconds 1 --out knock.wav");
+        writeHits("hits.csv", "0.2,349,40,0.4,0,0\n0.6,349,40,0.1,0,0\n");
     }
-    std::vector<float> samplesOf(const std::string& name) const {
-        const std::string wav = read(name);
-        const std::size_t data = wav.find("data") + 8;
-        std::uint32_t bytes = 0;
-        std::memcpy(&bytes, wav.data() + data - 4, 4);
-        std::vector<float> samples(bytes / 4);
-        std::memcpy(samples.data(), wav.data() + data, bytes);
-        return samples;
-    }
+    std::vector<float> samplesOf(const std::string& name) const { return channelsOf(name).at(0); }
     static float peakOf(const std::vector<float>& samples, double from, double to, double rate) {
         float most = 0.0f;
         for (auto n = static_cast<std::size_t>(from * rate); n < static_cast<std::size_t>(to * rate); ++n)
@@ -38,13 +28,12 @@ protected:
 TEST_F(SoundMethod, TheRecordingPlaysAtEachHitWithTheHitsAmplitudeAsItsPeak) {
     const std::string render = "render --from-events hits.csv --layout phone1 --seconds 1 --limiter off "
                                "--method SV --sound 349=knock.wav --out a.wav ";
-    const auto outcome = call(render);
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    runs(render);
     const auto a = samplesOf("a.wav");
     EXPECT_NEAR(peakOf(a, 0.2, 0.55, 48000), 0.4f, 1e-4f);
     EXPECT_NEAR(peakOf(a, 0.6, 0.99, 48000), 0.1f, 1e-4f);
     EXPECT_EQ(peakOf(a, 0.0, 0.199, 48000), 0.0f);
-    ASSERT_EQ(call(render + "--rate 44100").exitCode, 0); // resampled
+    runs(render + "--rate 44100"); // resampled
     EXPECT_NEAR(peakOf(samplesOf("a.wav"), 0.2, 0.55, 44100), 0.4f, 0.002f);
 }
 
@@ -59,7 +48,7 @@ TEST_F(SoundMethod, MaterialsOfOneFrequencyHaveRecordingsOfTheirOwn) {
             4);
     refuses(render + "--sound elm=knock.wav", 1,
             "--sound elm=knock.wav: expected a material of two.csv that vibrates, or a frequency", 4);
-    ASSERT_EQ(call(render + both + "--sound 349=knock.wav --events again.csv").exitCode, 0);
+    runs(render + both + "--sound 349=knock.wav --events again.csv");
     const auto a = samplesOf("a.wav");
     const auto differ = [&](double first, double second) {
         float most = 0.0f;
@@ -70,22 +59,18 @@ TEST_F(SoundMethod, MaterialsOfOneFrequencyHaveRecordingsOfTheirOwn) {
         return most;
     };
     EXPECT_GT(differ(0.1, 0.5), 0.1f);
-    EXPECT_NE(read("a.wav").find("sound=oak=knock.wav"), std::string::npos);
-    EXPECT_NE(read("again.csv").find(",oak\n"), std::string::npos);
-    EXPECT_NE(read("again.csv").find(",pine\n"), std::string::npos);
+    EXPECT_TRUE(holds(read("a.wav"), "sound=oak=knock.wav"));
+    EXPECT_TRUE(holds(read("again.csv"), ",oak\n"));
+    EXPECT_TRUE(holds(read("again.csv"), ",pine\n"));
 }
 
 TEST_F(SoundMethod, MarksAreAFileOfTheirOwnInSyncWithWhatIsFelt) {
-    write("close.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.2000005,349,40,0.4,0,0\n0."
-                       "6000005,349,40,0.1,0,0\n0.6002,349,40,0.1,0,0\n");
+    writeHits("close.csv", "0.2000005,349,40,0.4,0,0\n0.6000005,349,40,0.1,0,0\n0.6002,349,40,0.1,0,0\n");
     const std::string render =
         "render --from-events close.csv --layout phone1 --seconds 1 --out a.wav --marker m.wav";
-    const auto outcome = call(render);
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("m.wav  a pulse at each onset: 1 channel, 2 pulses for 3 onsets: 1 came "
-                               "within 0.5 ms of another"),
-              std::string::npos)
-        << outcome.out;
+    const auto outcome = runs(render);
+    EXPECT_TRUE(holds(outcome.out, "m.wav  a pulse at each onset: 1 channel, 2 pulses for 3 onsets: 1 came "
+                                   "within 0.5 ms of another"));
     const auto felt = samplesOf("a.wav"), marks = samplesOf("m.wav");
     ASSERT_EQ(felt.size(), marks.size());
     for (const std::size_t onset : {9601u, 28801u}) {
@@ -105,24 +90,22 @@ TEST_F(SoundMethod, TheContactSoundIsAFileOfItsOwnInSyncWithWhatIsFelt) {
         "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav --contact-sound b.wav ";
     auto outcome = call(render);
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(outcome.out.find("b.wav  what is heard of each hit: 1 channel, at full scale -20 dBFS"),
-              std::string::npos)
-        << outcome.out;
+    EXPECT_TRUE(holds(outcome.out, "b.wav  what is heard of each hit: 1 channel, at full scale -20 dBFS"));
     const auto felt = samplesOf("a.wav"), heard = samplesOf("b.wav");
     ASSERT_EQ(felt.size(), heard.size());
     for (std::size_t n = 0; n < felt.size(); ++n) ASSERT_NEAR(heard[n], 0.1f * felt[n], 1e-6f) << n;
-    ASSERT_EQ(call(render + "--contact-sound-db -6 --sound 349=knock.wav").exitCode, 0);
+    runs(render + "--contact-sound-db -6 --sound 349=knock.wav");
     const auto recorded = samplesOf("b.wav");
     EXPECT_NEAR(peakOf(recorded, 0.2, 0.55, 48000), 0.4f * 0.5012f, 1e-4f);
     EXPECT_EQ(peakOf(recorded, 0.0, 0.2, 48000), 0.0f);
     EXPECT_EQ(samplesOf("a.wav"), felt) << "the hands feel the mode";
-    ASSERT_EQ(call(render + "--contact-sound-channels 2").exitCode, 0);
-    const auto both = samplesOf("b.wav"); // interleaved; every place has the power of the one channel
-    ASSERT_EQ(both.size(), 2 * felt.size());
+    runs(render + "--contact-sound-channels 2");
+    const auto both = channelsOf("b.wav"); // every place has the power of the one channel
+    ASSERT_EQ(both.size(), 2u);
     float apart = 0.0f;
     for (std::size_t n = 0; n < felt.size(); ++n) {
-        ASSERT_NEAR(std::hypot(both[2 * n], both[2 * n + 1]), std::abs(heard[n]), 1e-6f) << n;
-        apart = std::max(apart, std::abs(both[2 * n] - both[2 * n + 1]));
+        ASSERT_NEAR(std::hypot(both[0][n], both[1][n]), std::abs(heard[n]), 1e-6f) << n;
+        apart = std::max(apart, std::abs(both[0][n] - both[1][n]));
     }
     EXPECT_GT(apart, 0.001f) << "by place";
 }
@@ -130,15 +113,15 @@ TEST_F(SoundMethod, TheContactSoundIsAFileOfItsOwnInSyncWithWhatIsFelt) {
 TEST_F(SoundMethod, LevelsMoveAllHitsAndRecordingsCanBeAsStrongAsTheMode) {
     const std::string render =
         "render --from-events hits.csv --layout phone1 --seconds 1 --limiter off --out a.wav ";
-    ASSERT_EQ(call(render).exitCode, 0);
+    runs(render);
     const auto plain = samplesOf("a.wav");
-    ASSERT_EQ(call(render + "--level-db -6.0206").exitCode, 0);
+    runs(render + "--level-db -6.0206");
     const auto half = samplesOf("a.wav");
     for (std::size_t n = 0; n < plain.size(); ++n) ASSERT_NEAR(half[n], 0.5f * plain[n], 1e-6f) << n;
-    ASSERT_EQ(call(render + "--method SV --sound 349=synthetic-7 --level-db -6.0206").exitCode, 0);
+    runs(render + "--method SV --sound 349=synthetic-7 --level-db -6.0206");
     EXPECT_NEAR(peakOf(samplesOf("a.wav"), 0.2, 0.55, 48000), 0.2f, 1e-4f);
-    EXPECT_NE(read("a.wav").find("sound=349=synthetic-7"), std::string::npos) << "what is synthetic says so";
-    ASSERT_EQ(call(render + "--method SV --sound 349=synthetic-7 --sound-match rms").exitCode, 0);
+    EXPECT_TRUE(holds(read("a.wav"), "sound=349=synthetic-7")) << "what is synthetic says so";
+    runs(render + "--method SV --sound 349=synthetic-7 --sound-match rms");
     const auto energy = [&](const std::vector<float>& x) {
         double sum = 0.0;
         for (std::size_t n = 9600; n < 9600 + 12000; ++n) sum += double{x[n]} * x[n];
@@ -161,9 +144,8 @@ TEST_F(SoundMethod, WhatIsMissingOrNoHitIsToldInOneLine) {
     refuses(render + "--method SV --sound 349=none.wav", 1, "none.wav: cannot be read", 3);
     refuses(render + "--method SV --sound 349=hits.csv", 1,
             "hits.csv: expected a WAV, AIFF, FLAC, Ogg Vorbis or Opus file", 3);
-    write("silence.csv", "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n0.1,349,40,0,0,0\n");
-    ASSERT_EQ(call("render --from-events silence.csv --layout phone1 --seconds 1 --out silence.wav").exitCode,
-              0);
+    writeHits("silence.csv", "0.1,349,40,0,0,0\n");
+    runs("render --from-events silence.csv --layout phone1 --seconds 1 --out silence.wav");
     refuses(render + "--method SV --sound 349=silence.wav", 1, "silence.wav: expected a hit, found silence",
             5);
 }
@@ -174,8 +156,7 @@ class PerceivedLevelCommand : public test::CommandLine {
 protected:
     void SetUp() override {
         CommandLine::SetUp();
-        write("hits.csv",
-              header +
+        writeHits("hits.csv",
                   "0.1,20,10,0.25,0,0\n0.2,80,34.13,0.25,0,0\n0.5,500,50,0.25,0,0\n0.7,500,50,0.75,0,0\n");
     }
     static std::string session(const std::string& shaping) {
@@ -188,25 +169,23 @@ protected:
                    "bodies": [{"name": "plate", "type": "static", "position_m": [2, 0.1], "mass_kg": 740, "fixtures": [{"shape": "box", "size_m": [4, 0.2], "material": "steel", "camera": true}]},
                               {"name": "ball", "position_m": [1, 1.5], "fixtures": [{"shape": "circle", "radius_m": 0.15, "material": "steel"}]}]}}]})";
     }
-    static inline const std::string header = "time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m\n";
     static constexpr const char* render =
         "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav ";
 };
 
 TEST_F(PerceivedLevelCommand, WeighsTheEventsThatAreListedAndPlayed) {
-    ASSERT_EQ(call(render).exitCode, 0);
+    runs(render);
     const auto plain = read("a.wav");
-    ASSERT_EQ(call(std::string{render} + "--perceived-level off").exitCode, 0);
+    runs(std::string{render} + "--perceived-level off");
     EXPECT_EQ(read("a.wav"), plain);
-    const auto outcome = call(std::string{render} + "--perceived-level on --events b.csv");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+    runs(std::string{render} + "--perceived-level on --events b.csv");
     EXPECT_NE(read("a.wav"), plain);
-    EXPECT_NE(read("a.wav").find("perceived_level=on"), std::string::npos);
+    EXPECT_TRUE(holds(read("a.wav"), "perceived_level=on"));
     const std::string listed = read("b.csv");
     for (const char* row : {"\n0.100000000,20,10,0.125,", "\n0.200000000,80,34.13,0.25,",
                             "\n0.500000000,500,50,0.5,", "\n0.700000000,500,50,1,"})
-        EXPECT_NE(listed.find(row), std::string::npos) << row << listed;
-    ASSERT_EQ(call("render --from-events b.csv --layout phone1 --seconds 1 --out b.wav").exitCode, 0);
+        EXPECT_TRUE(holds(listed, row));
+    runs("render --from-events b.csv --layout phone1 --seconds 1 --out b.wav");
     // without the line on its origin
     const auto tail = [](const std::string& wav) { return wav.substr(wav.size() - 100'000); };
     EXPECT_EQ(tail(read("b.wav")), tail(read("a.wav")));
@@ -214,15 +193,14 @@ TEST_F(PerceivedLevelCommand, WeighsTheEventsThatAreListedAndPlayed) {
 
 TEST_F(PerceivedLevelCommand, ASavedSessionKeepsItUnlessTheCallSaysOtherwise) {
     const auto events = [&](const std::string& saved, const std::string& options) {
-        EXPECT_EQ(call("render " + saved + " --seconds 2 --events s.csv " + options).exitCode, 0)
-            << read(".err");
+        runs("render " + saved + " --seconds 2 --events s.csv " + options);
         const std::string csv = read("s.csv");
         return csv.substr(csv.find("\ntime_s"));
     };
     write("plain.json", session(""));
     write("weighted.json", session(R"("shaping": {"perceived_level": true}, )"));
     const auto plain = events("plain.json", ""), weighted = events("plain.json", "--perceived-level on");
-    EXPECT_NE(plain.find(",430,"), std::string::npos) << "the ball hits the plate: " << plain;
+    EXPECT_TRUE(holds(plain, ",430,")) << "the ball hits the plate: ";
     EXPECT_NE(weighted, plain);
     EXPECT_EQ(events("weighted.json", ""), weighted);
     EXPECT_EQ(events("weighted.json", "--perceived-level off"), plain);
@@ -237,8 +215,7 @@ TEST_F(PerceivedLevelCommand, IsRefusedWhereItMeansNothing) {
               R"("recordings": [{"time_s": 0, "files": [{"frequency_hz": 430, "file": "synthetic-7"}]}], )"));
     refuses("render recorded.json --out a.wav --perceived-level on", 2,
             "--perceived-level: recordings have no one frequency to be weighted by", 2);
-    EXPECT_EQ(call("render recorded.json --out a.wav --perceived-level on --method AV-FV-DRV").exitCode, 0)
-        << read(".err");
+    runs("render recorded.json --out a.wav --perceived-level on --method AV-FV-DRV");
     std::filesystem::remove(folder_ / "a.wav");
     std::filesystem::remove(folder_ / "recorded.json");
     refuses("play drop --board /dev/none --perceived-level on", 2,

@@ -23,15 +23,14 @@ std::vector<float> samplesOf(const std::string& wav) {
 TEST_F(StimulusCommand, PatternsAndPhantomsBecomeFilesAndTheSameOnesAgain) {
     for (const std::string what : {"pattern ABA-250", "phantom --grid 5x5 --cell 2,4 --law log",
                                    "phantom --at 0.25,0.5 --layout ring4 --seconds 0.3"}) {
-        const auto outcome = call("stimulus " + what + " --out a.wav --picture a.png");
-        ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
+        const auto outcome = runs("stimulus " + what + " --out a.wav --picture a.png");
         EXPECT_EQ(outcome.err, "");
-        EXPECT_NE(outcome.out.find("4 channels"), std::string::npos) << outcome.out;
+        EXPECT_TRUE(holds(outcome.out, "4 channels"));
         const std::string first = read("a.wav");
-        ASSERT_EQ(call("stimulus " + what + " --out b.wav").exitCode, 0);
+        runs("stimulus " + what + " --out b.wav");
         EXPECT_EQ(read("b.wav"), first);
     }
-    EXPECT_NE(call("stimulus pattern ABA-250 --out a.wav").out.find("0.950 s"), std::string::npos);
+    EXPECT_TRUE(holds(call("stimulus pattern ABA-250 --out a.wav").out, "0.950 s"));
 }
 
 TEST_F(StimulusCommand, TheResonanceIsThatOfTheLayoutsActuators) {
@@ -42,9 +41,8 @@ TEST_F(StimulusCommand, TheResonanceIsThatOfTheLayoutsActuators) {
     write("same.json", layout("piezo-230", "piezo-230"));
     write("two.json", layout("lra-205", "piezo-230"));
     write("none.json", layout("none", "none"));
-    ASSERT_EQ(call("stimulus pattern AB-100 --layout same.json --frequency resonance --out a.wav").exitCode,
-              0);
-    ASSERT_EQ(call("stimulus pattern AB-100 --layout same.json --frequency 230 --out b.wav").exitCode, 0);
+    runs("stimulus pattern AB-100 --layout same.json --frequency resonance --out a.wav");
+    runs("stimulus pattern AB-100 --layout same.json --frequency 230 --out b.wav");
     EXPECT_EQ(read("a.wav"), read("b.wav"));
     refuses("stimulus pattern AB-100 --layout two.json --frequency resonance --out c.wav", 1,
             "actuator R: expected the resonance of the others, 205 Hz, found 230 Hz", 5);
@@ -62,14 +60,10 @@ TEST_F(StimulusCommand, EveryPatternIsListed) {
 }
 
 TEST_F(StimulusCommand, ARecordingIsPlacedLikeAPhantom) {
-    ASSERT_EQ(call("stimulus phantom --at 0,0 --layout phone1 --seconds 0.1 --level-g 0.5 --out mono.wav "
-                   "--rate 44100")
-                  .exitCode,
-              0);
-    ASSERT_EQ(call("stimulus wav mono.wav --at 0,0 --level-g 0.5 --out placed.wav").exitCode, 0);
-    ASSERT_EQ(
-        call("stimulus phantom --at 0,0 --seconds 0.1 --level-g 0.5 --rate 44100 --out direct.wav").exitCode,
-        0);
+    runs("stimulus phantom --at 0,0 --layout phone1 --seconds 0.1 --level-g 0.5 --out mono.wav "
+         "--rate 44100");
+    runs("stimulus wav mono.wav --at 0,0 --level-g 0.5 --out placed.wav");
+    runs("stimulus phantom --at 0,0 --seconds 0.1 --level-g 0.5 --rate 44100 --out direct.wav");
     const auto placed = samplesOf(read("placed.wav")), direct = samplesOf(read("direct.wav"));
     float worst = 0.0f; // the recording's peak, a sample of the sine, becomes the level
     for (std::size_t i = 0; i < placed.size(); ++i) worst = std::max(worst, std::abs(placed[i] - direct[i]));
@@ -91,12 +85,9 @@ TEST_F(StimulusCommand, WhatLiesBelow5HzInARecordingIsTakenAwayAndTold) {
     for (std::size_t n = 0; n < samples.size(); ++n)
         samples[n] += 0.02f * std::sin(0.16f * static_cast<float>(n));
     writeWav("offset.wav");
-    const auto outcome = call("stimulus wav offset.wav --at 0,0 --layout phone1 --out a.wav");
-    ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_NE(
-        outcome.err.find("offset.wav: what lies below 5 Hz is not played: a mean of 0.50, of full scale\n"),
-        std::string::npos)
-        << outcome.err;
+    const auto outcome = runs("stimulus wav offset.wav --at 0,0 --layout phone1 --out a.wav");
+    EXPECT_TRUE(holds(outcome.err,
+                      "offset.wav: what lies below 5 Hz is not played: a mean of 0.50, of full scale\n"));
     const auto placed = samplesOf(read("a.wav"));
     EXPECT_NEAR(*std::ranges::min_element(placed), -1.0f, 0.01f);
     EXPECT_NEAR(*std::ranges::max_element(placed), 1.0f, 0.01f);
@@ -106,10 +97,10 @@ TEST_F(StimulusCommand, LevelsAreInG) {
     write(
         "weak.json",
         R"({"extent_m":[1,1],"enchanters":[{"label":"L","x_m":0,"y_m":0.5,"full_scale_g":0.5},{"label":"R","x_m":1,"y_m":0.5}]})");
-    EXPECT_EQ(call("stimulus pattern A-100 --layout weak.json --level-g 0.5 --out a.wav").exitCode, 0);
+    runs("stimulus pattern A-100 --layout weak.json --level-g 0.5 --out a.wav");
     refuses("stimulus pattern A-100 --layout weak.json --out b.wav", 1,
             "actuator L: expected at most its full scale of 0.5 g, found 1.000 g", 2);
-    EXPECT_EQ(call("stimulus pattern B-100 --layout weak.json --out a.wav").exitCode, 0);
+    runs("stimulus pattern B-100 --layout weak.json --out a.wav");
 }
 
 TEST_F(StimulusCommand, BadCallsAreUsageErrors) {

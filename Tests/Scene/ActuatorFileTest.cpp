@@ -27,15 +27,17 @@ ActuatorProfile measured() {
     return p;
 }
 
-/// The profile above with one thing replaced.
-std::string errorOf(const std::string& what, const std::string& with) {
-    std::string text = actuatorJson(measured());
+/// Of a text with one thing replaced.
+std::string errorOf(auto read, std::string text, const std::string& what, const std::string& with) {
     const auto at = text.find(what);
     EXPECT_NE(at, text.npos) << what;
-    const auto read = readActuator(text.replace(at, what.size(), with), "my.json");
-    EXPECT_FALSE(read) << text;
-    EXPECT_TRUE(read.value == ActuatorProfile{});
-    return read.error;
+    const auto found = read(text.replace(at, what.size(), with), "my.json");
+    EXPECT_FALSE(found) << text;
+    EXPECT_TRUE(found.value == decltype(found.value){});
+    return found.error;
+}
+std::string errorOf(const std::string& what, const std::string& with) {
+    return errorOf(readActuator, actuatorJson(measured()), what, with);
 }
 
 TEST(ActuatorFile, WrittenAndReadItIsTheSame) {
@@ -122,13 +124,7 @@ TEST_F(ActuatorFileOnDiskTest, LoadsWhatWasWrittenAndRefusesWhatIsNoProfile) {
 // commands as a table.
 
 std::string padErrorOf(const std::string& what, const std::string& with) {
-    std::string text = padJson(builtInPads().front());
-    const auto at = text.find(what);
-    EXPECT_NE(at, text.npos) << what;
-    const auto read = readPad(text.replace(at, what.size(), with), "my.json");
-    EXPECT_FALSE(read) << text;
-    EXPECT_TRUE(read.value == PadProfile{});
-    return read.error;
+    return errorOf(readPad, padJson(builtInPads().front()), what, with);
 }
 
 TEST(PadFile, WrittenAndReadItIsTheSame) {

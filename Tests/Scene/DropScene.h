@@ -3,6 +3,7 @@
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/World/Simulation.h"
+#include <gtest/gtest.h>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -66,6 +67,25 @@ inline std::vector<CollisionEvent> eventsOf(const Scene& scene, double seconds, 
     std::vector<CollisionEvent> events;
     for (int i = 0; i < seconds * stepsPerSecond; ++i) simulation.step(events);
     return events;
+}
+
+/// So many events at least, none later than `longestNs` after the one before, and the last not before
+/// `untilNs`.
+inline void expectLively(const std::vector<CollisionEvent>& events, std::size_t least, std::int64_t longestNs,
+                         std::int64_t untilNs) {
+    EXPECT_GE(events.size(), least);
+    std::int64_t before = 0;
+    for (const CollisionEvent& event : events) {
+        EXPECT_LE(event.timeNs - before, longestNs);
+        before = event.timeNs;
+    }
+    EXPECT_GE(before, untilNs);
+}
+
+/// A name for a test, which has no hyphens.
+inline std::string bare(std::string name) {
+    std::erase(name, '-');
+    return name;
 }
 
 } // namespace physvib

@@ -3,6 +3,7 @@
 #include "Scene/EventsCsv.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Support/FileTesting.h"
+#include "Support/Holds.h"
 #include <algorithm>
 #include <limits>
 
@@ -77,11 +78,11 @@ TEST(EventsCsv, WriteThenReadGivesTheSameBits) {
 
 TEST(EventsCsv, KindsAreWrittenWhereThereAreAny) {
     Events events = randomEvents(5, 100);
-    EXPECT_EQ(eventsCsv(events, field, provenance).find("kind"), std::string::npos);
+    EXPECT_FALSE(holds(eventsCsv(events, field, provenance), "kind"));
     events[7].source.kind = ContactKind::roll;
     events[50].source.kind = ContactKind::slide;
     const std::string text = eventsCsv(events, field, provenance);
-    EXPECT_NE(text.find("mass_kg,kind\n"), std::string::npos);
+    EXPECT_TRUE(holds(text, "mass_kg,kind\n"));
     EXPECT_TRUE(readGood(text) == events);
     EXPECT_EQ(errorOf(allColumns.substr(0, allColumns.size() - 1) + ",kind\n1,200,10,1,0,0,0,1,2,0,1,fall\n"),
               "hits.csv:2: column kind: expected hit, roll or slide, found \"fall\"");
@@ -96,8 +97,8 @@ TEST(EventsCsv, MaterialsAreNamedWhereTheyAreKnown) {
     SoundNames names;
     for (const char* name : {"wood", "a, b", "clip-1", " c", "never struck"}) names.add(name);
     const std::string text = eventsCsv(events, field, provenance, names);
-    EXPECT_NE(text.find("mass_kg,material\n"), std::string::npos);
-    EXPECT_NE(text.find(",wood\n"), std::string::npos);
+    EXPECT_TRUE(holds(text, "mass_kg,material\n"));
+    EXPECT_TRUE(holds(text, ",wood\n"));
     const auto read = readEventsCsv(text, "hits.csv");
     ASSERT_EQ(read.error, "");
     EXPECT_TRUE(read.value.events == events);
@@ -105,33 +106,33 @@ TEST(EventsCsv, MaterialsAreNamedWhereTheyAreKnown) {
     EXPECT_EQ(read.value.names.of(soundOfClip(6)), "clip-7");
     EXPECT_EQ(eventsCsv(read.value.events, field, provenance, read.value.names).size(), text.size());
     events.resize(1);
-    EXPECT_NE(eventsCsv(events, field, provenance).find(",sound-923368111\n"), std::string::npos)
+    EXPECT_TRUE(holds(eventsCsv(events, field, provenance), ",sound-923368111\n"))
         << "whose name is not known here";
     EXPECT_EQ(readGood(eventsCsv(events, field, provenance)).front().sound, events[0].sound);
     events[0].sound = 0;
-    EXPECT_EQ(eventsCsv(events, field, provenance, names).find("material"), std::string::npos);
+    EXPECT_FALSE(holds(eventsCsv(events, field, provenance, names), "material"));
 }
 
 TEST(EventsCsv, DepthsAndPartsAreWrittenWhereThereAreAny) {
     Events events = randomEvents(4, 3);
     const std::string flat = eventsCsv(events, {}, provenance);
-    EXPECT_NE(flat.find("\n" + allColumns), std::string::npos) << "a list in a plane is as it was";
+    EXPECT_TRUE(holds(flat, "\n" + allColumns)) << "a list in a plane is as it was";
     events[1].z = -0.125;
-    EXPECT_NE(eventsCsv(events, {}, provenance).find("mass_kg,z_m\n"), std::string::npos);
+    EXPECT_TRUE(holds(eventsCsv(events, {}, provenance), "mass_kg,z_m\n"));
     events[2].source.part = partNamed("left elbow");
     events[0].source.part = partNamed("thumb");
     SoundNames names;
     names.parts.add("left elbow");
     const std::string text = eventsCsv(events, {}, provenance, names);
-    EXPECT_NE(text.find("mass_kg,z_m,part\n"), std::string::npos) << text;
-    EXPECT_NE(text.find(",0,thumb\n"), std::string::npos) << text;
-    EXPECT_NE(text.find(",-0.125,\n"), std::string::npos) << text;
-    EXPECT_NE(text.find(",0,left elbow\n"), std::string::npos) << text;
+    EXPECT_TRUE(holds(text, "mass_kg,z_m,part\n"));
+    EXPECT_TRUE(holds(text, ",0,thumb\n"));
+    EXPECT_TRUE(holds(text, ",-0.125,\n"));
+    EXPECT_TRUE(holds(text, ",0,left elbow\n"));
     EXPECT_EQ(readGood(text), events);
     const auto again = readEventsCsv(text, "again");
     EXPECT_EQ(eventsCsv(again.value.events, {}, provenance, again.value.names), text) << "names are kept";
     const std::string unnamed = eventsCsv(events, {}, provenance);
-    EXPECT_NE(unnamed.find(",part-" + std::to_string(partNamed("left elbow")) + "\n"), std::string::npos);
+    EXPECT_TRUE(holds(unnamed, ",part-" + std::to_string(partNamed("left elbow")) + "\n"));
     EXPECT_EQ(readGood(unnamed), events);
     EXPECT_EQ(errorOf("time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m,z_m\n0,100,1,1,0,0,up\n"),
               "hits.csv:2: column z_m: expected a number, found \"up\"");
@@ -175,8 +176,7 @@ TEST(EventsCsv, AListSaysTheFieldItSpans) {
     EXPECT_EQ(
         readEventsCsv(eventsCsv(randomEvents(5, 3), {odd, 1.0 / 3.0}, provenance), "hits.csv").value.field,
         (FieldSize{odd, 1.0 / 3.0}));
-    EXPECT_EQ(eventsCsv(randomEvents(5, 3), {}, provenance).find("field_m"), std::string::npos)
-        << "one that nobody knows";
+    EXPECT_FALSE(holds(eventsCsv(randomEvents(5, 3), {}, provenance), "field_m")) << "one that nobody knows";
 }
 
 TEST(EventsCsv, NegativeZeroKeepsItsSign) {
@@ -307,21 +307,9 @@ TEST(EventsCsv, ProvenanceStaysOnOneLine) {
 }
 
 TEST(EventsCsv, AcceptsExactlyWhatIsPlayable) {
-    constexpr double pool[] = {0.0,
-                               -0.0,
-                               1.0,
-                               -1.0,
-                               1e6,
-                               -1e6,
-                               1000001.0,
-                               2000.0,
-                               2000.5,
-                               20000.0,
-                               20000.5,
-                               5e-324,
-                               1.0e308,
-                               std::numeric_limits<double>::infinity(),
-                               std::numeric_limits<double>::quiet_NaN()};
+    constexpr double inf = std::numeric_limits<double>::infinity(), nan = NAN;
+    constexpr double pool[] = {0.0,    -0.0,    1.0,     -1.0,   1e6,     -1e6, 1000001.0, 2000.0,
+                               2000.5, 20000.0, 20000.5, 5e-324, 1.0e308, inf,  nan};
     constexpr std::int64_t times[] = {0, 1, -1, limits::maxTimeNs, limits::maxTimeNs + 1};
     std::mt19937 random(6);
     const auto number = [&] { return pool[anyIndex(random, std::size(pool))]; };
@@ -373,8 +361,7 @@ TEST(EventsCsv, ACommaLocaleChangesNothing) {
     const CommaLocale comma;
     EXPECT_TRUE(eventsCsv(events, field, provenance) == text);
     EXPECT_TRUE(readGood(text) == events);
-    EXPECT_NE(errorOf(shortHeader + "1,20000.5,3,4,5,6\n").find("<= 20000, found \"20000.5\""),
-              std::string::npos);
+    EXPECT_TRUE(holds(errorOf(shortHeader + "1,20000.5,3,4,5,6\n"), "<= 20000, found \"20000.5\""));
     if (!comma.hasCLocale)
         GTEST_SKIP() << "no C locale with a decimal comma here; tried with C++ streams only";
 }

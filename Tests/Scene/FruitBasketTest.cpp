@@ -26,9 +26,7 @@ bool isOf(const CollisionEvent& event, const Material& material) {
     return event.frequencyHz == material.frequencyHz && event.decayPerSecond == material.decayPerSecond;
 }
 
-const Material& materialNamed(const std::string& name) {
-    return *std::ranges::find(basket().materials, name, &Material::name);
-}
+const Material& materialNamed(const std::string& name) { return *findNamed(basket().materials, name); }
 
 /// The first fruit of each kind, by its material.
 std::map<std::string, BodyDescription> kinds() {
@@ -75,8 +73,7 @@ TEST(FruitBasket, FruitsLandByTheirWeightAndSpring) {
         const double impulse = fall.massKg * speed * (1.0 + materialNamed(kind).restitution);
         EXPECT_NEAR(fall.landing.source.impulseNewtonSeconds, impulse, 0.02 * impulse) << kind;
         // also the largest: m_h of Eq. 5.7
-        const double basketMass =
-            massKg(*std::ranges::find(basket().bodies, "basket", &BodyDescription::name), basket());
+        const double basketMass = massKg(*findNamed(basket().bodies, "basket"), basket());
         const double amplitude =
             basket().driveGain * impulse / (2.0 * basket().fieldWidthMetres * 2.0 * basketMass);
         EXPECT_NEAR(fall.landing.amplitude, amplitude, 0.02 * amplitude) << kind;
@@ -85,18 +82,6 @@ TEST(FruitBasket, FruitsLandByTheirWeightAndSpring) {
     ASSERT_EQ(amplitudes.size(), 6U);
     for (auto next = std::next(amplitudes.begin()); next != amplitudes.end(); ++next)
         EXPECT_GT(next->second, std::prev(next)->second) << next->first << " kg";
-}
-
-TEST(FruitBasket, TheHigherTheFallTheHarderTheLanding) {
-    const Fall full(kinds().at("orange"));
-    double before = 0.0;
-    for (const double height : {0.25, 0.5, 1.0, 2.0}) {
-        Scene scene = full.scene;
-        scene.bodies.back().positionMetres.y += height - dropMetres;
-        const double amplitude = eventsOf(scene, 1.0).at(0).amplitude;
-        EXPECT_GT(amplitude, 1.3 * before); // the root of 2 by each doubling
-        before = amplitude;
-    }
 }
 
 TEST(FruitBasket, OnlyFruitsAreHeardAndEachKindIsOnEveryPartOfTheBasket) {
@@ -141,9 +126,7 @@ TEST(FruitBasket, IsPlayedByHandsAndItsScriptLeavesThatToThem) {
     EXPECT_TRUE(orchard.player.moves());
     EXPECT_EQ(orchard.player.body(), "basket");
     const auto moves = [](const Scene& scene) {
-        return std::ranges::count_if(scene.script, [](const ScriptInput& input) {
-            return std::holds_alternative<VelocityAction>(input.action);
-        });
+        return std::ranges::count_if(scene.script, isAnyOf<VelocityAction>, &ScriptInput::action);
     };
     EXPECT_GT(moves(basket()), 10) << "the script catches for whoever only looks";
     EXPECT_EQ(moves(sceneForHands(basket())), 0);
@@ -217,9 +200,7 @@ Scene levelRoad(double metresPerSecond) {
     return scene;
 }
 
-double massOf(const std::string& body) {
-    return massKg(*std::ranges::find(driving().bodies, body, &BodyDescription::name), driving());
-}
+double massOf(const std::string& body) { return massKg(*findNamed(driving().bodies, body), driving()); }
 
 /// The first time that the car's body itself strikes `what`.
 CollisionEvent firstHit(const Scene& scene, const std::string& what) {
@@ -230,17 +211,6 @@ CollisionEvent firstHit(const Scene& scene, const std::string& what) {
             return event;
     ADD_FAILURE() << what << " was not hit";
     return {};
-}
-
-TEST(Driving, TheFasterTheCarTheHarderItHitsTheWall) {
-    double impulse = 0.0, amplitude = 0.0;
-    for (const double speed : {1.0, 1.5, 2.25, 3.375, 5.0625}) {
-        const CollisionEvent hit = firstHit(levelRoad(speed), "right wall");
-        EXPECT_GT(hit.source.impulseNewtonSeconds, 1.2 * impulse) << speed << " m/s";
-        EXPECT_GT(hit.amplitude, 1.2 * amplitude) << speed << " m/s";
-        impulse = hit.source.impulseNewtonSeconds;
-        amplitude = hit.amplitude;
-    }
 }
 
 TEST(Driving, AHitAtTwiceTheSpeedIsTwiceAsStrong) {
@@ -265,9 +235,7 @@ TEST(Driving, KeysDriveTheCarFasterWithEachAndBrakeIt) {
     Scene scene = sceneForHands(driving());
     ScenePlayer player{scene};
     EXPECT_TRUE(player.drives());
-    EXPECT_TRUE(std::ranges::none_of(scene.script, [](const ScriptInput& input) {
-        return std::holds_alternative<MotorAction>(input.action);
-    }));
+    EXPECT_TRUE(std::ranges::none_of(scene.script, isAnyOf<MotorAction>, &ScriptInput::action));
     EXPECT_FALSE(scene.script.empty()) << "obstacles fall all the same";
     scene.script.clear();
     const auto act = [&](double seconds, const std::vector<Action>& actions) {

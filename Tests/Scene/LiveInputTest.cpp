@@ -12,7 +12,7 @@
 namespace physvib {
 namespace {
 
-BodyDescription stone(const std::string& name, Vector at) {
+BodyDescription stone(const std::string& name, Vector at = {1.0, 1.0}) {
     return {name, BodyType::dynamicBody, {{CircleShape{0.1}, {}, 0.0, 1, true}}, at};
 }
 
@@ -171,10 +171,6 @@ TEST(InputCheck, EndsWithTheLimit) {
 
 // What counts towards the limit of live inputs, and what is kept of the earlier ones: bodies that come,
 // change and go never make a later input invalid.
-
-BodyDescription stone(const std::string& name) {
-    return {name, BodyType::dynamicBody, {{CircleShape{0.1}, {}, 0.0, 1, true}}, {1.0, 1.0}};
-}
 
 /// Takes them one after the other, until an error, which is that of all at once.
 std::string takeAll(InputCheck& check, const std::vector<Action>& actions) {

@@ -69,7 +69,7 @@ public:
         : definition_(definition(name)) {}
 
     template <class F>
-    void field(std::string_view name, F T::*, const Bounds& bounds, Need need) {
+    void field(std::string_view name, F T::*, const Bounds& bounds, Need need = Need::required) {
         const Json& found = take(name, need);
         expect(found, std::type_identity<F>{}, bounds);
     }

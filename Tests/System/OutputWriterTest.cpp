@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Who says something never waits for who reads it.
-#include "System/StandardStreams.h"
+#include "System/Process.h"
 #include <algorithm>
 #include <array>
 #include <atomic>

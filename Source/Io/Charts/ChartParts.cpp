@@ -125,15 +125,8 @@ constexpr std::string_view svgBegin = "<svg xmlns=\"http://www.w3.org/2000/svg\"
 const std::string ground = "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
 
 std::string svgHead(double width, double height) {
-    std::string out{svgBegin};
-    appendPixels(out, width);
-    out += ' ';
-    appendPixels(out, height);
-    out += "\" width=\"";
-    appendPixels(out, width);
-    out += "\" height=\"";
-    appendPixels(out, height);
-    return out + "\" font-family=\"Helvetica, Arial, sans-serif\">\n";
+    return std::string{svgBegin} + pixels({width, height}) + "\" width=\"" + pixels({width}) +
+           "\" height=\"" + pixels({height}) + "\" font-family=\"Helvetica, Arial, sans-serif\">\n";
 }
 
 /// The size that svgHead() wrote.
@@ -177,111 +170,79 @@ double textWidth(std::string_view text, double size) noexcept {
     return ems * size;
 }
 
-void appendPixels(std::string& out, double pixels) {
-    std::string text = fixedNumber(pixels, 2);
-    text.erase(text.find_last_not_of('0') + 1);
-    if (text.ends_with('.')) text.pop_back();
-    out += text.empty() || text == "-0" ? "0" : text;
+std::string pixels(std::initializer_list<double> numbers) {
+    std::string all;
+    for (const double number : numbers) {
+        std::string text = fixedNumber(number, 2);
+        text.erase(text.find_last_not_of('0') + 1);
+        if (text.ends_with('.')) text.pop_back();
+        if (!all.empty()) all += ' ';
+        all += text.empty() || text == "-0" ? "0" : text;
+    }
+    return all;
 }
 
-void appendPoint(std::string& out, char command, ChartPoint at) {
-    out += command;
-    appendPixels(out, at.x);
-    out += ' ';
-    appendPixels(out, at.y);
-}
+void appendPoint(std::string& out, char command, ChartPoint at) { (out += command) += pixels({at.x, at.y}); }
 
 Svg::Svg(std::string name, double width, double height)
     : name_{std::move(name)}
     , width_{width}
     , height_{height} {}
 
-void Svg::open(std::string_view tag) { body_.append("<").append(tag); }
-
-void Svg::attribute(std::string_view name, double value) {
-    body_.append(" ").append(name).append("=\"");
-    appendPixels(body_, value);
-    body_ += '"';
+void Svg::open(std::string_view tag, std::initializer_list<std::pair<std::string_view, double>> numbers) {
+    body_.append("<").append(tag);
+    for (const auto& [name, value] : numbers) attribute(name, pixels({value}));
 }
 
 void Svg::attribute(std::string_view name, std::string_view value) {
     body_.append(" ").append(name).append("=\"").append(value).append("\"");
 }
 
-void Svg::stroked(const Stroke& stroke) {
-    attribute("stroke", stroke.colour);
-    if (stroke.width != 1.0) attribute("stroke-width", stroke.width);
-    if (!stroke.dash.empty()) attribute("stroke-dasharray", stroke.dash);
+void Svg::close(const Stroke& stroke, std::string_view ofStroke) {
+    if (stroke.colour != "none") {
+        attribute("stroke", stroke.colour);
+        if (stroke.width != 1.0) attribute("stroke-width", pixels({stroke.width}));
+        if (!stroke.dash.empty()) attribute("stroke-dasharray", stroke.dash);
+        body_ += ofStroke;
+    }
+    body_ += "/>\n";
 }
 
 void Svg::line(ChartPoint from, ChartPoint to, Stroke stroke) {
-    open("line");
-    attribute("x1", from.x);
-    attribute("y1", from.y);
-    attribute("x2", to.x);
-    attribute("y2", to.y);
-    stroked(stroke);
-    body_ += "/>\n";
+    open("line", {{"x1", from.x}, {"y1", from.y}, {"x2", to.x}, {"y2", to.y}});
+    close(stroke);
 }
 
 void Svg::rect(ChartPoint corner, double width, double height, std::string_view fill, Stroke stroke) {
-    open("rect");
-    attribute("x", corner.x);
-    attribute("y", corner.y);
-    attribute("width", width);
-    attribute("height", height);
+    open("rect", {{"x", corner.x}, {"y", corner.y}, {"width", width}, {"height", height}});
     attribute("fill", fill);
-    if (stroke.colour != "none") stroked(stroke);
-    body_ += "/>\n";
+    close(stroke);
 }
 
 void Svg::path(std::string_view commands, std::string_view fill, Stroke stroke) {
     open("path");
     attribute("d", commands);
     attribute("fill", fill);
-    if (stroke.colour != "none") {
-        stroked(stroke);
-        attribute("stroke-linecap", "round");
-        attribute("stroke-linejoin", "round");
-    }
-    body_ += "/>\n";
+    close(stroke, " stroke-linecap=\"round\" stroke-linejoin=\"round\"");
 }
 
 void Svg::ellipse(ChartPoint centre, double radiusX, double radiusY, double degrees, std::string_view fill,
                   Stroke stroke) {
-    open("ellipse");
-    attribute("rx", radiusX);
-    attribute("ry", radiusY);
-    body_ += " transform=\"translate(";
-    appendPixels(body_, centre.x);
-    body_ += ' ';
-    appendPixels(body_, centre.y);
-    body_ += ") rotate(";
-    appendPixels(body_, degrees);
-    body_ += ")\"";
+    open("ellipse", {{"rx", radiusX}, {"ry", radiusY}});
+    attribute("transform",
+              "translate(" + pixels({centre.x, centre.y}) + ") rotate(" + pixels({degrees}) + ")");
     attribute("fill", fill);
-    if (stroke.colour != "none") stroked(stroke);
-    body_ += "/>\n";
+    close(stroke);
 }
 
 void Svg::text(ChartPoint at, std::string_view words, TextStyle style) {
     constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
-    open("text");
-    attribute("x", at.x);
-    attribute("y", at.y);
-    attribute("font-size", style.size);
+    open("text", {{"x", at.x}, {"y", at.y}, {"font-size", style.size}});
     if (style.anchor != Anchor::start)
         attribute("text-anchor", anchors[static_cast<std::size_t>(style.anchor)]);
     if (style.isBold) attribute("font-weight", "bold");
     attribute("fill", style.colour);
-    if (style.degrees != 0.0) {
-        body_ += " transform=\"rotate(";
-        for (const double number : {style.degrees, at.x, at.y}) {
-            if (!body_.ends_with('(')) body_ += ' ';
-            appendPixels(body_, number);
-        }
-        body_ += ")\"";
-    }
+    if (style.degrees != 0.0) attribute("transform", "rotate(" + pixels({style.degrees, at.x, at.y}) + ")");
     body_.append(">").append(markup(words)).append("</text>\n");
 }
 
@@ -345,9 +306,8 @@ std::string Svg::finish(std::string_view words, bool isSimulated) const {
             out += "<pattern id=\"" + name_ + "-h" + std::to_string(style) +
                    "\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\"><path d=\"" +
                    std::string(hatchPaths[style]) +
-                   "\" stroke=\"#fff\" stroke-linecap=\"round\" fill=\"none\" stroke-width=\"";
-            appendPixels(out, hatchWidths[style]);
-            out += "\"/></pattern>";
+                   "\" stroke=\"#fff\" stroke-linecap=\"round\" fill=\"none\" stroke-width=\"" +
+                   pixels({hatchWidths[style]}) + "\"/></pattern>";
         }
         out += "</defs>\n";
     }
@@ -355,15 +315,10 @@ std::string Svg::finish(std::string_view words, bool isSimulated) const {
     if (isSimulated) {
         const double size = 0.8 * std::hypot(width_, height_) / textWidth("SIMULATED", 1.0);
         out += "<text font-weight=\"bold\" fill=\"#b00020\" fill-opacity=\"0.1\" text-anchor=\"middle\" "
-               "font-size=\"";
-        appendPixels(out, size);
-        out += "\" transform=\"translate(";
-        appendPixels(out, 0.5 * width_);
-        out += ' ';
-        appendPixels(out, 0.5 * height_);
-        out += ") rotate(";
-        appendPixels(out, -57.2957795 * std::atan2(height_, width_));
-        out += ")\" dy=\"0.35em\">SIMULATED</text>\n";
+               "font-size=\"" +
+               pixels({size}) + "\" transform=\"translate(" + pixels({0.5 * width_, 0.5 * height_}) +
+               ") rotate(" + pixels({-57.2957795 * std::atan2(height_, width_)}) +
+               ")\" dy=\"0.35em\">SIMULATED</text>\n";
     }
     return out + "</svg>\n";
 }
@@ -379,11 +334,7 @@ std::string chartSheet(const std::vector<std::string>& charts) {
             y += height;
             x = height = 0.0;
         }
-        body += "<g transform=\"translate(";
-        appendPixels(body, x);
-        body += ' ';
-        appendPixels(body, y);
-        body += ")\">\n" + chart + "</g>\n";
+        body += "<g transform=\"translate(" + pixels({x, y}) + ")\">\n" + chart + "</g>\n";
         x += size.x;
         width = std::max(width, x);
         height = std::max(height, size.y);

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // A chart's numeric axis: range, ticks and tick labels.
@@ -120,18 +122,18 @@ public:
     std::string finish(std::string_view words, bool isSimulated) const;
 
 private:
-    void open(std::string_view tag);
-    void attribute(std::string_view name, double value);
+    void open(std::string_view tag, std::initializer_list<std::pair<std::string_view, double>> numbers = {});
     void attribute(std::string_view name, std::string_view value);
-    void stroked(const Stroke& stroke);
+    void close(const Stroke& stroke, std::string_view ofStroke = {});
 
     std::string name_, body_;
     double width_, height_;
     unsigned hatches_ = 0; // one bit per series style whose hatch is used
 };
 
-/// Appends a number with at most two decimals; appendPoint: a path command with its point. Any thread.
-void appendPixels(std::string& out, double pixels);
+/// Numbers with at most two decimals, and spaces between; appendPoint: a path command with its point. Any
+/// thread.
+std::string pixels(std::initializer_list<double> numbers);
 void appendPoint(std::string& out, char command, ChartPoint at);
 } // namespace physvib
 namespace physvib::detail {

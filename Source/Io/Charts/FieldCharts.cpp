@@ -177,10 +177,7 @@ struct PlaceDrawing {
         return d;
     }
     static void move(std::string& d, double x, double y) { appendPoint(d, 'M', {x, y}); }
-    static void step(std::string& d, char direction, double length) {
-        d += direction;
-        appendPixels(d, length);
-    }
+    static void step(std::string& d, char direction, double length) { (d += direction) += pixels({length}); }
     /// As thesis Fig. 4.6 has them: a dot, x, cross, circle or asterisk by the target's row, blue, black, red
     /// or cyan by its column.
     void places() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Formats lists of names for help texts and error messages: "linear, log or energy"; and words of a shell.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -16,6 +17,14 @@ constexpr std::array<std::string_view, size> namesOf(const std::array<Row, size>
     std::array<std::string_view, size> names{};
     for (std::size_t i = 0; i < size; ++i) names[i] = rows[i].name;
     return names;
+}
+
+/// The first item of that name; nullptr: none. Any thread.
+template <class List>
+auto* findNamed(List& list, std::string_view name) noexcept {
+    const auto found =
+        std::find_if(list.begin(), list.end(), [name](const auto& item) { return item.name == name; });
+    return found == list.end() ? nullptr : &*found;
 }
 
 /// The names with `between` in between. Any thread.

@@ -5,8 +5,8 @@
 #include "Core/RenderControl.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Json/FieldTable.h"
+#include "Scene/SceneEdits.h"
 #include "Scene/SceneLimits.h"
-#include "Scene/SceneRun.h"
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include "Live/Session/SessionSetup.h"
 #include "Live/Session/Sink.h"
 #include "Live/Session/Timeline.h"
-#include "Scene/SceneRun.h"
+#include "Scene/SceneEdits.h"
 #include "Scene/World/Simulation.h"
 #include <algorithm>
 #include <atomic>

@@ -11,6 +11,14 @@ namespace physvib {
 using detail::Motion;
 using detail::placeOf;
 
+namespace {
+
+auto isIn(const std::vector<std::string>& names) {
+    return [&names](const std::string& name) { return std::ranges::find(names, name) != names.end(); };
+}
+
+} // namespace
+
 Action changed(BodyDescription body) { return ChangeAction{std::move(body), true}; }
 
 std::vector<Action> movedTo(const SceneDrawing& drawing, const std::map<std::string, BodyPlace>& places) {
@@ -62,9 +70,7 @@ std::vector<Action> movedTo(const SceneDrawing& drawing, const std::map<std::str
 
 std::vector<Action> erased(const SceneDrawing& drawing, const std::vector<std::string>& names) {
     std::vector<Action> actions;
-    const auto isMeant = [&](const std::string& name) {
-        return std::ranges::find(names, name) != names.end();
-    };
+    const auto isMeant = isIn(names);
     for (const JointDescription& joint : drawing.drawn().joints)
         if (isMeant(joint.name) || isMeant(joint.bodyA) || isMeant(joint.bodyB))
             actions.push_back(UnjoinAction{joint.name});
@@ -75,7 +81,7 @@ std::vector<Action> erased(const SceneDrawing& drawing, const std::vector<std::s
 
 Scene without(Scene scene, const std::vector<std::string>& names) {
     auto gone = names;
-    const auto isGone = [&](const std::string& name) { return std::ranges::find(gone, name) != gone.end(); };
+    const auto isGone = isIn(gone);
     std::erase_if(scene.joints, [&](const JointDescription& joint) {
         const bool goes = isGone(joint.name) || isGone(joint.bodyA) || isGone(joint.bodyB);
         if (goes) gone.push_back(joint.name);
@@ -99,9 +105,7 @@ Scene without(Scene scene, const std::vector<std::string>& names) {
 
 Copied copied(const SceneDrawing& drawing, const std::vector<std::string>& names) {
     Copied copy;
-    const auto isMeant = [&](const std::string& name) {
-        return std::ranges::find(names, name) != names.end();
-    };
+    const auto isMeant = isIn(names);
     for (const BodyDescription& body : drawing.drawn().bodies)
         if (isMeant(body.name)) copy.bodies.push_back(body);
     for (const JointDescription& joint : drawing.drawn().joints)
@@ -143,16 +147,20 @@ std::vector<Action> pasted(const SceneDrawing& drawing, const Copied& copy, cons
     return actions;
 }
 
-Scene newScene(const Scene& like, SceneGround ground) {
-    Scene scene = like;
-    scene.name = "new scene";
-    scene.description.clear();
+Scene emptied(Scene scene) {
     scene.bodies.clear();
     scene.joints.clear();
     scene.script.clear();
     scene.scriptPeriodSeconds = 0.0;
     scene.inputs.clear();
     scene.variables.clear();
+    return scene;
+}
+
+Scene newScene(const Scene& like, SceneGround ground) {
+    Scene scene = emptied(like);
+    scene.name = "new scene";
+    scene.description.clear();
     if (ground == SceneGround::empty || scene.materials.empty()) return scene;
     const double w = scene.fieldWidthMetres, h = scene.fieldHeightMetres,
                  thick = std::max(2.0 * sceneLimits::minSizeMetres, 0.05 * std::min(w, h));

@@ -96,6 +96,9 @@ Result<std::vector<Action>> sprung(const SceneDrawing& drawing, const std::strin
 /// The drawn scene with its bodies at their present places; joints keep their points on them. Any thread.
 Scene sceneNow(const Scene& drawn, const PoseNow& now);
 
+/// Field, gravity, materials and names alone. Any thread.
+Scene emptied(Scene scene);
+
 enum class SceneGround { empty, box, floor };
 
 /// A new scene with field, gravity and materials of another. Walls and floor are haptic sources of its first

@@ -14,11 +14,16 @@ using detail::Motion;
 using detail::placeOf;
 
 /// True if the places differ by no more than a seed's jitter.
-bool isNear(const BodyDescription& a, const BodyDescription& b) {
+bool isNear(const BodyPlace& a, const BodyPlace& b) {
     constexpr double near = 2.0e-3;
-    return portable::hypot(a.positionMetres.x - b.positionMetres.x, a.positionMetres.y - b.positionMetres.y) <
-               near &&
+    return portable::hypot(a.metres.x - b.metres.x, a.metres.y - b.metres.y) < near &&
            std::abs(a.angleRadians - b.angleRadians) < near;
+}
+
+Action atRest(BodyDescription body) {
+    body.velocityMetresPerSecond = {};
+    body.spinRadiansPerSecond = 0.0;
+    return ChangeAction{std::move(body), false};
 }
 
 } // namespace
@@ -36,37 +41,27 @@ Result<std::vector<Action>> joined(const SceneDrawing& drawing, JointKind kind,
         if (body->type == BodyType::dynamicBody)
             heaviest =
                 std::max(heaviest, massKg(*body, drawing.drawn()) * lengthMetres(body->fixtures[0].shape));
+        if (isNear(place, placeOf(*body))) continue;
         BodyDescription here = *body;
         here.positionMetres = place.metres;
         here.angleRadians = place.angleRadians;
-        if (isNear(here, *body)) continue;
-        here.velocityMetresPerSecond = {};
-        here.spinRadiansPerSecond = 0.0;
-        actions.push_back(ChangeAction{std::move(here), false});
+        actions.push_back(atRest(std::move(here)));
     }
     if (a.first == b.first) return Failure{"a joint: expected two bodies, found " + a.first + " twice"};
     if (heaviest <= 0.0) return Failure{"a joint: expected a body that moves"};
     const double length = portable::hypot(to.x - from.x, to.y - from.y);
     if (kind != JointKind::pin && kind != JointKind::motor && length < sceneLimits::minSizeMetres)
         return Failure{"a rope, spring or slider: expected two places"};
-    JointDescription joint;
-    joint.name = drawing.freeName("joint");
-    joint.bodyA = a.first;
-    joint.bodyB = b.first;
+    JointDescription joint{drawing.freeName("joint"), a.first, b.first, {}};
+    joint.collide = kind == JointKind::rope || kind == JointKind::spring;
     if (kind == JointKind::rope) {
-        DistanceJoint rope{from, to, 0.0, 0.0, true};
-        joint.collide = true;
-        joint.joint = rope;
+        joint.joint = DistanceJoint{from, to, 0.0, 0.0, true};
     } else if (kind == JointKind::spring) {
         constexpr double hz = 2.0, dampingRatio = 0.1; // swings some five times
-        joint.collide = true;
         joint.joint = DistanceJoint{from, to, hz, dampingRatio, false};
     } else if (kind == JointKind::slider) {
-        SliderJoint slider;
-        slider.anchorMetres = from;
-        slider.axis = {(to.x - from.x) / length, (to.y - from.y) / length};
-        slider.travelMetres = Interval{0.0, length};
-        joint.joint = slider;
+        const Vector axis{(to.x - from.x) / length, (to.y - from.y) / length};
+        joint.joint = SliderJoint{from, axis, Interval{0.0, length}};
     } else {
         RevoluteJoint pin;
         pin.anchorMetres = from;
@@ -120,18 +115,14 @@ MotorDrive driveOf(const JointDescription& motor) {
 
 Result<std::vector<Action>> driven(const SceneDrawing& drawing, const std::string& joint,
                                    const MotorDrive& drive, const PoseNow& now) {
-    const auto named = [&](const Scene& scene) {
-        const auto found = std::ranges::find(scene.joints, joint, &JointDescription::name);
-        return found == scene.joints.end() ? std::optional<JointDescription>{} : *found;
-    };
     const auto anchorOf = [](const JointDescription& description) {
         Vector anchor;
         withMotor(description, [&](const auto& kind) { anchor = kind.anchorMetres; });
         return anchor;
     };
-    const Scene here = sceneNow(drawing.drawn(), now);
-    const auto drawn = named(drawing.drawn());
-    auto next = named(here);
+    Scene here = sceneNow(drawing.drawn(), now);
+    const auto* drawn = findNamed(drawing.drawn().joints, joint);
+    auto* next = findNamed(here.joints, joint);
     if (!drawn || !withMotor(*next, [&](auto& kind) {
             kind.motorRadiansPerSecond = drive.radiansPerSecond;
             kind.maxTorqueNewtonMetres = drive.maxTorqueNewtonMetres;
@@ -142,13 +133,8 @@ Result<std::vector<Action>> driven(const SceneDrawing& drawing, const std::strin
     const Vector before = anchorOf(*drawn), after = anchorOf(*next);
     if (portable::hypot(after.x - before.x, after.y - before.y) > near)
         for (const BodyDescription& body : here.bodies)
-            if (body.type == BodyType::dynamicBody &&
-                (body.name == next->bodyA || body.name == next->bodyB)) {
-                BodyDescription rested = body;
-                rested.velocityMetresPerSecond = {};
-                rested.spinRadiansPerSecond = 0.0;
-                actions.push_back(ChangeAction{std::move(rested), false});
-            }
+            if (body.type == BodyType::dynamicBody && (body.name == next->bodyA || body.name == next->bodyB))
+                actions.push_back(atRest(body));
     actions.push_back(JoinAction{std::move(*next)});
     return actions;
 }
@@ -163,9 +149,8 @@ const JointDescription* springOf(const Scene& scene, const std::string& body) {
 }
 
 Result<std::vector<Action>> sprung(const SceneDrawing& drawing, const std::string& joint, double hz) {
-    const auto& joints = drawing.drawn().joints;
-    const auto found = std::ranges::find(joints, joint, &JointDescription::name);
-    if (found == joints.end() || springHzOf(*found) <= 0.0)
+    const auto* found = findNamed(drawing.drawn().joints, joint);
+    if (found == nullptr || springHzOf(*found) <= 0.0)
         return Failure{"a spring: expected one, found " + joint};
     JointDescription next = *found;
     std::get<DistanceJoint>(next.joint).springHz = hz;

@@ -44,13 +44,7 @@ bool isPlayable(const Scene& scene) { return validate(scene).empty(); }
 
 ContactCounts countsOf(const Scene& scene, BodyDescription body, const Surface& surface) {
     const double height = scene.fieldHeightMetres, width = scene.fieldWidthMetres;
-    Scene trial = scene;
-    trial.bodies.clear();
-    trial.joints.clear();
-    trial.script.clear();
-    trial.scriptPeriodSeconds = 0.0;
-    trial.inputs.clear();
-    trial.variables.clear();
+    Scene trial = emptied(scene);
     BodyDescription other;
     other.name = "other";
     other.fixtures.resize(1);

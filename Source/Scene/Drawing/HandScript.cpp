@@ -11,22 +11,15 @@
 namespace physvib {
 namespace {
 
-bool isKinematic(const Scene& scene, const std::string& body) {
-    const auto found = std::ranges::find(scene.bodies, body, &BodyDescription::name);
-    return found != scene.bodies.end() && found->type == BodyType::kinematicBody;
-}
-
 /// Name of the state that an action sets until the next action of its kind; a trimmed part starts with that
 /// state. Empty for actions without lasting state, such as pushes and grips.
 std::string stateOf(const Scene& scene, const Action& action) {
-    if (std::holds_alternative<GravityAction>(action) || std::holds_alternative<TiltAction>(action))
-        return "gravity"; // either replaces the other
-    if (std::holds_alternative<HoldAction>(action)) return "hold";
+    if (isAnyOf<GravityAction, TiltAction>(action)) return "gravity"; // either replaces the other
+    if (isAnyOf<HoldAction>(action)) return "hold";
     if (const auto* motor = std::get_if<MotorAction>(&action)) return "motor " + motor->joint;
-    if (const auto* velocity = std::get_if<VelocityAction>(&action);
-        velocity != nullptr && isKinematic(scene, velocity->body))
-        return "velocity " + velocity->body;
-    return {};
+    const auto* velocity = std::get_if<VelocityAction>(&action);
+    const auto* moved = velocity != nullptr ? findNamed(scene.bodies, velocity->body) : nullptr;
+    return moved != nullptr && moved->type == BodyType::kinematicBody ? "velocity " + moved->name : "";
 }
 
 /// Bodies that are still gripped after those inputs.

@@ -2,7 +2,7 @@
 // Records a user's inputs in a scene run, trims them, and stores them as the scene's script.
 #pragma once
 #include "Scene/Scene.h"
-#include "Scene/SceneRun.h"
+#include "Scene/SceneEdits.h"
 #include <cstddef>
 #include <vector>
 

@@ -19,11 +19,6 @@ namespace physvib {
 
 namespace {
 
-bool isStructural(const Action& action) {
-    return bodyPutBy(action) != nullptr || std::holds_alternative<RemoveAction>(action) ||
-           std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
-}
-
 /// One action per fixture, with its present value.
 template <class Make>
 std::vector<Action> ofFixtures(const BodyDescription* body, Make make) {
@@ -54,15 +49,14 @@ std::string SceneDrawing::check(const std::vector<Action>& actions) const {
 void SceneDrawing::take(std::span<const Action> actions) {
     editScene(drawn_, actions);
     for (const Action& action : actions)
-        if (isStructural(action))
+        if (isAnyOf<SpawnAction, ChangeAction, RemoveAction, JoinAction, UnjoinAction>(action))
             cast_.inputs.push_back({0.0, action});
         else if (isLasting(action))
             describeEdit(cast_, action);
 }
 
 const BodyDescription* SceneDrawing::find(std::string_view body) const noexcept {
-    const auto found = std::ranges::find(drawn_.bodies, body, &BodyDescription::name);
-    return found == drawn_.bodies.end() ? nullptr : &*found;
+    return findNamed(drawn_.bodies, body);
 }
 
 std::vector<std::string> SceneDrawing::freeNames(const std::string& stem, std::size_t count) const {
@@ -98,8 +92,8 @@ std::vector<Action> SceneDrawing::undoOf(const Action& action, const PoseNow& no
     if (const auto* join = std::get_if<JoinAction>(&action)) return {UnjoinAction{join->joint.name}};
     if (const auto* unjoin = std::get_if<UnjoinAction>(&action)) {
         const Scene here = sceneNow(drawn_, now);
-        const auto joint = std::ranges::find(here.joints, unjoin->joint, &JointDescription::name);
-        if (joint == here.joints.end()) return {};
+        const auto* joint = findNamed(here.joints, unjoin->joint);
+        if (joint == nullptr) return {};
         std::vector<Action> back; // what it held was drawn elsewhere, and goes on alone
         for (const BodyDescription& body : here.bodies)
             if ((body.name == joint->bodyA || body.name == joint->bodyB) && body != *find(body.name))
@@ -130,9 +124,9 @@ std::vector<Action> SceneDrawing::undoOf(const Action& action, const PoseNow& no
 void SceneEdit::run(bool isForth, const SceneDrawing& drawing, const PoseNow& now,
                     const std::function<void(std::span<const Action>)>& act) {
     const auto& actions = isForth ? forth_ : back_;
-    std::vector<Action> opposite;               // from the end
-    const bool isErased = std::ranges::none_of( // a joint that is changed stays where it was drawn
-        actions, [](const Action& action) { return std::holds_alternative<JoinAction>(action); });
+    std::vector<Action> opposite; // from the end
+    // a joint that is changed stays where it was drawn
+    const bool isErased = std::ranges::none_of(actions, isAnyOf<JoinAction>);
     for (std::span<const Action> left{actions}; !left.empty();) {
         const auto run = left.first(takenTogether(left));
         left = left.subspan(run.size());

@@ -12,15 +12,7 @@ namespace physvib {
 
 namespace {
 
-bool isSpawn(const Action& action) { return std::holds_alternative<SpawnAction>(action); }
-bool isRemoval(const Action& action) { return std::holds_alternative<RemoveAction>(action); }
-bool isChange(const Action& action) { return std::holds_alternative<ChangeAction>(action); }
-bool isJoining(const Action& action) {
-    return std::holds_alternative<JoinAction>(action) || std::holds_alternative<UnjoinAction>(action);
-}
-bool isSwitch(const Action& action) {
-    return std::holds_alternative<CameraAction>(action) || std::holds_alternative<MaterialAction>(action);
-}
+constexpr auto isRemoval = isAnyOf<RemoveAction>;
 
 /// The body that one of those actions refers to.
 const std::string& bodyOf(const Action& action) {
@@ -35,13 +27,14 @@ const std::string& bodyOf(const Action& action) {
 /// True if later inputs must be checked against this one. Pushes and tilts, most of a long list, change
 /// nothing that others depend on; nor does a repetition.
 bool matters(const std::vector<LiveInput>& before, const Action& action) {
-    if (isSpawn(action) || isChange(action) || isJoining(action)) return true;
-    if (!isSwitch(action) && !isRemoval(action)) return false;
+    if (isAnyOf<SpawnAction, ChangeAction, JoinAction, UnjoinAction>(action)) return true;
+    const bool isSwitch = isAnyOf<CameraAction, MaterialAction>(action);
+    if (!isSwitch && !isRemoval(action)) return false;
     for (auto input = before.rbegin(); input != before.rend(); ++input) {
         if (input->action == action) return false;
         if (bodyPutBy(input->action) != nullptr && bodyOf(input->action) == bodyOf(action)) return true;
     }
-    return isSwitch(action); // on the scene's own bodies, which are never removed permanently
+    return isSwitch; // on the scene's own bodies, which are never removed permanently
 }
 
 } // namespace
@@ -78,7 +71,7 @@ bool InputCheck::fold(const Action& action) {
         return true;
     }
     const auto isSpawned = [&](const LiveInput& input) {
-        return isSpawn(input.action) && bodyOf(input.action) == change->body.name;
+        return isAnyOf<SpawnAction>(input.action) && bodyOf(input.action) == change->body.name;
     };
     if (!isRemoval(last->action) || std::ranges::none_of(inputs, isSpawned)) return false;
     // earlier inputs may have been forgotten
@@ -100,12 +93,11 @@ void InputCheck::forgetOldest() {
         const std::string body = bodyOf(oldest->action);
         const auto isOf = [&](const LiveInput& input) { return bodyOf(input.action) == body; };
         const auto next = std::find_if(oldest, inputs.end(), [&](const LiveInput& input) {
-            return isSpawn(input.action) && isOf(input);
+            return isAnyOf<SpawnAction>(input.action) && isOf(input);
         });
         // later inputs refer to another body of that name
         inputs.erase(std::remove_if(inputs.begin(), next, isOf), next);
-        if (std::ranges::none_of(scriptedCast(scene_),
-                                 [&](const BodyDescription& known) { return known.name == body; }))
+        if (const auto cast = scriptedCast(scene_); findNamed(cast, body) == nullptr)
             std::erase_if(inputs, [&](const LiveInput& input) {
                 const auto* join = std::get_if<JoinAction>(&input.action);
                 return join != nullptr && (join->joint.bodyA == body || join->joint.bodyB == body);

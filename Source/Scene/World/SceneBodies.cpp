@@ -80,17 +80,13 @@ double thinnestMetres(const BodyDescription& body) {
     return thinnest;
 }
 
-b2BodyType typeOf(BodyType type) {
-    constexpr std::array types{b2_staticBody, b2_kinematicBody, b2_dynamicBody};
-    return types[static_cast<std::size_t>(type)];
-}
-
 } // namespace
 
 b2Body& createBody(b2World& world, const Scene& scene, const BodyDescription& body, const BodyStart& start,
                    double stepSeconds, std::vector<b2Fixture*>& fixtures) {
+    constexpr std::array types{b2_staticBody, b2_kinematicBody, b2_dynamicBody};
     b2BodyDef def;
-    def.type = typeOf(body.type);
+    def.type = types[static_cast<std::size_t>(body.type)];
     def.position = box2dVector(start.positionMetres);
     def.angle = static_cast<float>(start.angleRadians);
     if (body.type != BodyType::staticBody) def.linearVelocity = box2dVector(start.velocityMetresPerSecond);
@@ -136,15 +132,7 @@ void setSurface(b2Fixture& fixture, const FixtureDescription& description, const
 
 namespace {
 
-/// Creates the joint that `Def` defines, with what all of them have in common.
-template <class Def>
-b2Joint& create(b2World& world, Def& def, const JointDescription& joint) {
-    def.collideConnected = joint.collide;
-    return *world.CreateJoint(&def);
-}
-
-template <class Def, class Driven>
-void setMotor(Def& def, const Driven& joint) {
+void setMotor(auto& def, const auto& joint) {
     def.motorSpeed = static_cast<float>(joint.motorRadiansPerSecond);
     def.maxMotorTorque = static_cast<float>(joint.maxTorqueNewtonMetres);
     def.enableMotor = true; // without effect at a torque of 0, which the script may change
@@ -161,140 +149,105 @@ Vector unit(const Vector& axis) {
     return {axis.x / length, axis.y / length};
 }
 
-class Maker {
-public:
-    Maker(b2World& world, const JointDescription& joint, b2Body& a, b2Body& b)
-        : world_(world)
-        , joint_(joint)
-        , a_(a)
-        , b_(b) {}
+struct Maker {
+    b2World& world;
+    const JointDescription& described;
+    b2Body &a, &b;
 
     b2Joint& operator()(const RevoluteJoint& joint) const {
         b2RevoluteJointDef def;
-        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres));
+        def.Initialize(&a, &b, box2dVector(joint.anchorMetres));
         setLimits(def.enableLimit, def.lowerAngle, def.upperAngle, joint.limitsRadians);
         setMotor(def, joint);
-        return create(world_, def, joint_);
+        return create(def);
     }
     b2Joint& operator()(const WheelJoint& joint) const {
         b2WheelJointDef def;
-        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres), box2dVector(unit(joint.axis)));
+        def.Initialize(&a, &b, box2dVector(joint.anchorMetres), box2dVector(unit(joint.axis)));
         spring(def.stiffness, def.damping, joint.suspensionHz, joint.dampingRatio);
         setLimits(def.enableLimit, def.lowerTranslation, def.upperTranslation, joint.travelMetres);
         setMotor(def, joint);
-        return create(world_, def, joint_);
+        return create(def);
     }
     b2Joint& operator()(const DistanceJoint& joint) const {
         b2DistanceJointDef def;
-        def.Initialize(&a_, &b_, box2dVector(joint.anchorAMetres), box2dVector(joint.anchorBMetres));
+        def.Initialize(&a, &b, box2dVector(joint.anchorAMetres), box2dVector(joint.anchorBMetres));
         if (!joint.isSlack) spring(def.stiffness, def.damping, joint.springHz, joint.dampingRatio);
         // else a rod: Box2D keeps the length between these two
         if (joint.isSlack || joint.springHz > 0.0) def.minLength = 0.0F;
         if (!joint.isSlack && joint.springHz > 0.0) def.maxLength = b2_maxFloat;
-        return create(world_, def, joint_);
+        return create(def);
     }
     b2Joint& operator()(const WeldJoint& joint) const {
         b2WeldJointDef def;
-        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres));
+        def.Initialize(&a, &b, box2dVector(joint.anchorMetres));
         if (joint.springHz > 0.0)
             b2AngularStiffness(def.stiffness, def.damping, static_cast<float>(joint.springHz),
-                               static_cast<float>(joint.dampingRatio), &a_, &b_);
-        return create(world_, def, joint_);
+                               static_cast<float>(joint.dampingRatio), &a, &b);
+        return create(def);
     }
     b2Joint& operator()(const SliderJoint& joint) const {
         b2PrismaticJointDef def;
-        def.Initialize(&a_, &b_, box2dVector(joint.anchorMetres), box2dVector(unit(joint.axis)));
+        def.Initialize(&a, &b, box2dVector(joint.anchorMetres), box2dVector(unit(joint.axis)));
         setLimits(def.enableLimit, def.lowerTranslation, def.upperTranslation, joint.travelMetres);
         def.motorSpeed = static_cast<float>(joint.motorMetresPerSecond);
         def.maxMotorForce = static_cast<float>(joint.maxForceNewtons);
         def.enableMotor = true;
-        return create(world_, def, joint_);
+        return create(def);
     }
 
-private:
+    b2Joint& create(auto& def) const {
+        def.collideConnected = described.collide;
+        return *world.CreateJoint(&def);
+    }
     void spring(float& stiffness, float& damping, double frequencyHz, double ratio) const {
         if (frequencyHz > 0.0)
             b2LinearStiffness(stiffness, damping, static_cast<float>(frequencyHz), static_cast<float>(ratio),
-                              &a_, &b_);
+                              &a, &b);
     }
-
-    b2World& world_;
-    const JointDescription& joint_;
-    b2Body& a_;
-    b2Body& b_;
 };
 
+/// What the joint is now, except for its bodies.
 template <class Def, class Made>
-void copyAnchors(Def& def, const Made& made) {
+Def defOf(const Made& made) {
+    Def def;
     def.localAnchorA = made.GetLocalAnchorA();
     def.localAnchorB = made.GetLocalAnchorB();
-}
-template <class Def, class Made>
-void copySpring(Def& def, const Made& made) {
-    def.stiffness = made.GetStiffness();
-    def.damping = made.GetDamping();
-}
-template <class Def, class Made>
-void copyTravel(Def& def, const Made& made) {
-    def.enableLimit = made.IsLimitEnabled();
-    def.lowerTranslation = made.GetLowerLimit();
-    def.upperTranslation = made.GetUpperLimit();
-    def.localAxisA = made.GetLocalAxisA();
-    def.motorSpeed = made.GetMotorSpeed();
-    def.enableMotor = true;
-}
-
-b2RevoluteJointDef defOf(const b2RevoluteJoint& made) {
-    b2RevoluteJointDef def;
-    copyAnchors(def, made);
-    def.referenceAngle = made.GetReferenceAngle();
-    def.enableLimit = made.IsLimitEnabled();
-    def.lowerAngle = made.GetLowerLimit();
-    def.upperAngle = made.GetUpperLimit();
-    def.motorSpeed = made.GetMotorSpeed();
-    def.maxMotorTorque = made.GetMaxMotorTorque();
-    def.enableMotor = true;
-    return def;
-}
-b2WheelJointDef defOf(const b2WheelJoint& made) {
-    b2WheelJointDef def;
-    copyAnchors(def, made);
-    copyTravel(def, made);
-    def.maxMotorTorque = made.GetMaxMotorTorque();
-    copySpring(def, made);
-    return def;
-}
-b2DistanceJointDef defOf(const b2DistanceJoint& made) {
-    b2DistanceJointDef def;
-    copyAnchors(def, made);
-    def.length = made.GetLength();
-    def.minLength = made.GetMinLength();
-    def.maxLength = made.GetMaxLength();
-    copySpring(def, made);
-    return def;
-}
-b2WeldJointDef defOf(const b2WeldJoint& made) {
-    b2WeldJointDef def;
-    copyAnchors(def, made);
-    def.referenceAngle = made.GetReferenceAngle();
-    copySpring(def, made);
-    return def;
-}
-b2PrismaticJointDef defOf(const b2PrismaticJoint& made) {
-    b2PrismaticJointDef def;
-    copyAnchors(def, made);
-    copyTravel(def, made);
-    def.referenceAngle = made.GetReferenceAngle();
-    def.maxMotorForce = made.GetMaxMotorForce();
+    def.collideConnected = made.GetCollideConnected();
+    if constexpr (requires { def.referenceAngle; }) def.referenceAngle = made.GetReferenceAngle();
+    if constexpr (requires { def.localAxisA; }) def.localAxisA = made.GetLocalAxisA();
+    if constexpr (requires { def.stiffness; }) {
+        def.stiffness = made.GetStiffness();
+        def.damping = made.GetDamping();
+    }
+    if constexpr (requires { def.lowerTranslation; }) {
+        def.lowerTranslation = made.GetLowerLimit();
+        def.upperTranslation = made.GetUpperLimit();
+    }
+    if constexpr (requires { def.lowerAngle; }) {
+        def.lowerAngle = made.GetLowerLimit();
+        def.upperAngle = made.GetUpperLimit();
+    }
+    if constexpr (requires { def.enableMotor; }) {
+        def.enableLimit = made.IsLimitEnabled();
+        def.motorSpeed = made.GetMotorSpeed();
+        def.enableMotor = true;
+    }
+    if constexpr (requires { def.maxMotorTorque; }) def.maxMotorTorque = made.GetMaxMotorTorque();
+    if constexpr (requires { def.maxMotorForce; }) def.maxMotorForce = made.GetMaxMotorForce();
+    if constexpr (requires { def.minLength; }) {
+        def.length = made.GetLength();
+        def.minLength = made.GetMinLength();
+        def.maxLength = made.GetMaxLength();
+    }
     return def;
 }
 
-template <class Made>
+template <class Made, class Def>
 b2Joint& moved(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
-    auto def = defOf(static_cast<const Made&>(joint));
+    Def def = defOf<Def>(static_cast<const Made&>(joint));
     def.bodyA = joint.GetBodyA() == &from ? &to : joint.GetBodyA();
     def.bodyB = joint.GetBodyB() == &from ? &to : joint.GetBodyB();
-    def.collideConnected = joint.GetCollideConnected();
     b2Joint* const made = world.CreateJoint(&def);
     world.DestroyJoint(&joint);
     return *made;
@@ -304,16 +257,17 @@ b2Joint& moved(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
 
 b2Joint& moveJoint(b2World& world, b2Joint& joint, b2Body& from, b2Body& to) {
     switch (joint.GetType()) {
-    case e_revoluteJoint: return moved<b2RevoluteJoint>(world, joint, from, to);
-    case e_wheelJoint: return moved<b2WheelJoint>(world, joint, from, to);
-    case e_distanceJoint: return moved<b2DistanceJoint>(world, joint, from, to);
-    case e_weldJoint: return moved<b2WeldJoint>(world, joint, from, to);
-    default: return moved<b2PrismaticJoint>(world, joint, from, to); // there are no others in a scene
+    case e_revoluteJoint: return moved<b2RevoluteJoint, b2RevoluteJointDef>(world, joint, from, to);
+    case e_wheelJoint: return moved<b2WheelJoint, b2WheelJointDef>(world, joint, from, to);
+    case e_distanceJoint: return moved<b2DistanceJoint, b2DistanceJointDef>(world, joint, from, to);
+    case e_weldJoint: return moved<b2WeldJoint, b2WeldJointDef>(world, joint, from, to);
+    default: // there are no others in a scene
+        return moved<b2PrismaticJoint, b2PrismaticJointDef>(world, joint, from, to);
     }
 }
 
 b2Joint& createJoint(b2World& world, const JointDescription& joint, b2Body& bodyA, b2Body& bodyB) {
-    return std::visit(Maker(world, joint, bodyA, bodyB), joint.joint);
+    return std::visit(Maker{world, joint, bodyA, bodyB}, joint.joint);
 }
 
 JointPose describedPose(const JointDescription& joint) {

@@ -40,9 +40,8 @@ ScenePlayer::ScenePlayer(const Scene& scene)
     }
     for (const JointDescription& joint : scene.joints) {
         const auto* wheel = std::get_if<WheelJoint>(&joint.joint);
-        const auto car = std::ranges::find(scene.bodies, joint.bodyA, &BodyDescription::name);
-        if (wheel != nullptr && wheel->maxTorqueNewtonMetres > 0.0 && car != scene.bodies.end() &&
-            isFelt(*car))
+        const auto* car = findNamed(scene.bodies, joint.bodyA);
+        if (wheel != nullptr && wheel->maxTorqueNewtonMetres > 0.0 && car != nullptr && isFelt(*car))
             wheels_.push_back(joint.name);
     }
 }

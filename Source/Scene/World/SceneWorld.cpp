@@ -33,10 +33,7 @@ void makeRoom(b2World& world, const Scene& scene) {
         for (void* const block : blocks) manager.m_allocator->Free(block, bytes);
     };
     makeBlocks(contacts, sizeof(b2Contact));
-    const auto grips = [](const ScriptInput& input) {
-        return std::holds_alternative<GripAction>(input.action);
-    };
-    if (std::ranges::any_of(scene.script, grips)) {
+    if (std::ranges::any_of(scene.script, isAnyOf<GripAction>, &ScriptInput::action)) {
         makeBlocks(SceneGrips::expected, sizeof(b2MouseJoint));
         makeBlocks(1, sizeof(b2Body)); // the other end of the grips
     }
@@ -127,11 +124,6 @@ void SceneWorld::startHalfAStepBehind(b2Body& body) const {
     body.SetLinearVelocity(body.GetLinearVelocity() + halfStep);
 }
 
-void SceneWorld::setGravity(const Vector& beforeHold) {
-    gravity_ = beforeHold;
-    holdDevice();
-}
-
 void SceneWorld::holdDevice() {
     const Vector turned = turnedBy(gravity_, hold_.angleRadians);
     const b2Vec2 gravity = box2dVector({hold_.factor * turned.x, hold_.factor * turned.y});
@@ -148,14 +140,6 @@ SceneWorld::Body* SceneWorld::find(std::string_view name) noexcept {
 b2Body* SceneWorld::findInWorld(std::string_view name) noexcept {
     Body* const found = find(name);
     return found == nullptr ? nullptr : found->body;
-}
-
-template <class Change>
-void SceneWorld::forFixtures(const std::string& body, int fixture, Change change) {
-    Body* const meant = find(body);
-    if (meant == nullptr) return;
-    for (std::size_t i = 0; i < meant->fixtures.size(); ++i)
-        if (fixture == everyFixture || static_cast<std::size_t>(fixture) == i) change(*meant, i);
 }
 
 void SceneWorld::setMaterial(Body& body, std::size_t fixture, int material) {
@@ -209,8 +193,7 @@ bool SceneWorld::actOnInputs(std::int64_t step) {
     for (; nextInput_ < scene_.inputs.size(); ++nextInput_) {
         const LiveInput& input = scene_.inputs[nextInput_];
         if (clock_.firstStepAt(input.timeSeconds) > step) break;
-        const auto* wanted = std::get_if<SpawnAction>(&input.action);
-        fixturesChanged |= wanted != nullptr ? spawn(wanted->body) : apply(input.action);
+        fixturesChanged |= apply(input.action);
     }
     return fixturesChanged;
 }
@@ -222,8 +205,11 @@ bool SceneWorld::actOnScript(std::int64_t step) {
     std::for_each(paces_.begin(), later, [this](const ScriptPace& pace) { take(pace); });
     paces_.erase(paces_.begin(), later);
     const std::int64_t now = pace_.scriptStep(step, clock_);
-    for (DueAction due = script_.next(now); due.action != nullptr; due = script_.next(now))
-        fixturesChanged |= act(due);
+    for (DueAction due = script_.next(now); due.action != nullptr; due = script_.next(now)) {
+        const auto* spawn = std::get_if<SpawnAction>(due.action);
+        if (spawn != nullptr) restart(*spawn, due.repetition);
+        fixturesChanged |= spawn != nullptr || apply(*due.action);
+    }
     return fixturesChanged;
 }
 
@@ -233,56 +219,7 @@ void SceneWorld::take(const ScriptPace& pace) {
     for (auto& [name, joint] : joints_) forMotor(*joint.made, drive);
 }
 
-bool SceneWorld::act(const DueAction& due) {
-    if (const auto* spawn = std::get_if<SpawnAction>(due.action)) return act(*spawn, due.repetition);
-    return apply(*due.action);
-}
-
-bool SceneWorld::spawn(const BodyDescription& body) {
-    startHalfAStepBehind(*add(body, describedStart(body)).body);
-    return true;
-}
-
-template <>
-bool SceneWorld::act(const GravityAction& action) {
-    setGravity(action.metresPerSecond2);
-    return false;
-}
-
-template <>
-bool SceneWorld::act(const TiltAction& action) {
-    setGravity(turnedBy(scene_.gravityMetresPerSecond2, action.angleRadians));
-    return false;
-}
-
-template <>
-bool SceneWorld::act(const HoldAction& action) {
-    hold_ = action;
-    holdDevice();
-    return false;
-}
-
-template <>
-bool SceneWorld::act(const ImpulseAction& action) {
-    b2Body* body = findInWorld(action.body);
-    if (body == nullptr) return false;
-    const b2Vec2 point =
-        action.pointMetres ? body->GetWorldPoint(box2dVector(*action.pointMetres)) : body->GetWorldCenter();
-    body->ApplyLinearImpulse(box2dVector(action.newtonSeconds), point, true);
-    return false;
-}
-
-template <>
-bool SceneWorld::act(const VelocityAction& action) {
-    b2Body* body = findInWorld(action.body);
-    if (body == nullptr) return false;
-    body->SetAwake(true); // also for a velocity of 0
-    body->SetLinearVelocity(box2dVector(action.metresPerSecond));
-    body->SetAngularVelocity(static_cast<float>(action.spinRadiansPerSecond));
-    return false;
-}
-
-bool SceneWorld::act(const SpawnAction& action, int repetition) {
+void SceneWorld::restart(const SpawnAction& action, int repetition) {
     const std::size_t number = spawned_.at(&action) + static_cast<std::size_t>(repetition);
     Body& body = bodies_.at(number);
     // the body was changed since
@@ -297,28 +234,6 @@ bool SceneWorld::act(const SpawnAction& action, int repetition) {
     grips_.letGo(*body.body); // it starts anew
     restartBody(*body.body, body.described, startOf(body.described));
     startHalfAStepBehind(*body.body);
-    return true;
-}
-
-template <>
-bool SceneWorld::act(const RemoveAction& action) {
-    const auto place = bodyNames_.find(action.body);
-    if (place == bodyNames_.end()) return false;
-    const std::size_t number = place->second;
-    b2Body& body = *bodies_.at(number).body;
-    if (number >= scripted_) {
-        bodyNames_.erase(place);
-        // the body was changed: the script may need the original
-        const auto scripted = scriptedNames_.find(action.body);
-        if (scripted == scriptedNames_.end())
-            dropJoints(body);
-        else {
-            moveJoints(body, *bodies_.at(scripted->second).body);
-            bodyNames_.emplace(*scripted);
-        }
-    }
-    retire(number);
-    return false;
 }
 
 // It has no contacts any more. The script may spawn it again; a live body is destroyed once its impacts have
@@ -345,109 +260,137 @@ void SceneWorld::dropJoints(b2Body& body) {
     });
 }
 
-template <>
-bool SceneWorld::act(const ChangeAction& action) {
-    const auto place = bodyNames_.find(action.body.name);
-    Body* const before = place == bodyNames_.end() ? nullptr : &bodies_.at(place->second);
-    const bool stays = action.stays && before != nullptr && before->body->IsEnabled();
-    BodyStart start = describedStart(action.body);
-    if (stays) {
-        const b2Vec2 at = before->body->GetPosition(), speed = before->body->GetLinearVelocity();
-        start = {{at.x, at.y}, before->body->GetAngle(), {speed.x, speed.y}};
+/// What each action does when it comes.
+struct SceneWorld::Acts {
+    SceneWorld& w;
+
+    void operator()(const GravityAction& action) const {
+        w.gravity_ = action.metresPerSecond2;
+        w.holdDevice();
     }
-    const std::size_t old = before == nullptr ? nextBody_ : place->second;
-    if (before != nullptr) bodyNames_.erase(place);
-    b2Body& now = *add(action.body, start).body;
-    if (stays)
-        now.SetAngularVelocity(before->body->GetAngularVelocity());
-    else
-        startHalfAStepBehind(now);
-    if (before == nullptr) return true;
-    moveJoints(*before->body, now);
-    retire(old);
-    return true;
-}
+    void operator()(const TiltAction& action) const {
+        w.gravity_ = turnedBy(w.scene_.gravityMetresPerSecond2, action.angleRadians);
+        w.holdDevice();
+    }
+    void operator()(const HoldAction& action) const {
+        w.hold_ = action;
+        w.holdDevice();
+    }
+    void operator()(const ImpulseAction& action) const {
+        b2Body* body = w.findInWorld(action.body);
+        if (body == nullptr) return;
+        const b2Vec2 point = action.pointMetres ? body->GetWorldPoint(box2dVector(*action.pointMetres))
+                                                : body->GetWorldCenter();
+        body->ApplyLinearImpulse(box2dVector(action.newtonSeconds), point, true);
+    }
+    void operator()(const VelocityAction& action) const {
+        b2Body* body = w.findInWorld(action.body);
+        if (body == nullptr) return;
+        body->SetAwake(true); // also for a velocity of 0
+        body->SetLinearVelocity(box2dVector(action.metresPerSecond));
+        body->SetAngularVelocity(static_cast<float>(action.spinRadiansPerSecond));
+    }
+    void operator()(const GripAction& action) const {
+        if (b2Body* body = w.findInWorld(action.body)) w.grips_.act(*body, action, w.step_);
+    }
 
-template <>
-bool SceneWorld::act(const UnjoinAction& action) {
-    const auto joint = joints_.find(action.joint);
-    if (joint == joints_.end()) return false;
-    world_.DestroyJoint(joint->second.made); // wakes both bodies
-    joints_.erase(joint);
-    return false;
-}
-
-template <>
-bool SceneWorld::act(const JoinAction& action) {
-    act(UnjoinAction{action.joint.name});
-    b2Body *const a = findInWorld(action.joint.bodyA), *const b = findInWorld(action.joint.bodyB);
-    if (a != nullptr && b != nullptr)
-        joints_.emplace(action.joint.name,
-                        HeldJoint{&createJoint(world_, action.joint, *a, *b), action.joint.joint});
-    return false;
-}
-
-template <>
-bool SceneWorld::act(const MotorAction& action) {
-    const auto place = joints_.find(action.joint);
-    if (place == joints_.end()) return false;
-    const auto set = [&](auto& joint) {
-        joint.SetMotorSpeed(static_cast<float>(action.radiansPerSecond * pace_.rate));
-        if (action.maxTorqueNewtonMetres)
-            joint.SetMaxMotorTorque(static_cast<float>(*action.maxTorqueNewtonMetres));
-    };
-    forMotor(*place->second.made, set);
-    return false;
-}
-
-template <>
-bool SceneWorld::act(const CameraAction& action) {
-    forFixtures(action.body, action.fixture,
-                [&](Body& body, std::size_t fixture) { body.now.fixtures[fixture].isCamera = action.isOn; });
-    return true;
-}
-
-template <>
-bool SceneWorld::act(const MaterialAction& action) {
-    forFixtures(action.body, action.fixture,
-                [&](Body& body, std::size_t fixture) { setMaterial(body, fixture, action.material); });
-    if (b2Body* body = findInWorld(action.body))
-        for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
-            edge->contact->ResetFriction(); // contacts keep the values they began with
-            edge->contact->ResetRestitution();
+    /// Of a live input; a script's bodies are there already, see restart().
+    void operator()(const SpawnAction& action) const {
+        w.startHalfAStepBehind(*w.add(action.body, describedStart(action.body)).body);
+    }
+    void operator()(const RemoveAction& action) const {
+        const auto place = w.bodyNames_.find(action.body);
+        if (place == w.bodyNames_.end()) return;
+        const std::size_t number = place->second;
+        b2Body& body = *w.bodies_.at(number).body;
+        if (number >= w.scripted_) {
+            w.bodyNames_.erase(place);
+            // the body was changed: the script may need the original
+            const auto scripted = w.scriptedNames_.find(action.body);
+            if (scripted == w.scriptedNames_.end())
+                w.dropJoints(body);
+            else {
+                w.moveJoints(body, *w.bodies_.at(scripted->second).body);
+                w.bodyNames_.emplace(*scripted);
+            }
         }
-    return true;
-}
+        w.retire(number);
+    }
+    void operator()(const ChangeAction& action) const {
+        const auto place = w.bodyNames_.find(action.body.name);
+        Body* const before = place == w.bodyNames_.end() ? nullptr : &w.bodies_.at(place->second);
+        const bool stays = action.stays && before != nullptr && before->body->IsEnabled();
+        BodyStart start = describedStart(action.body);
+        if (stays) {
+            const b2Vec2 at = before->body->GetPosition(), speed = before->body->GetLinearVelocity();
+            start = {{at.x, at.y}, before->body->GetAngle(), {speed.x, speed.y}};
+        }
+        const std::size_t old = before == nullptr ? w.nextBody_ : place->second;
+        if (before != nullptr) w.bodyNames_.erase(place);
+        b2Body& now = *w.add(action.body, start).body;
+        if (stays)
+            now.SetAngularVelocity(before->body->GetAngularVelocity());
+        else
+            w.startHalfAStepBehind(now);
+        if (before == nullptr) return;
+        w.moveJoints(*before->body, now);
+        w.retire(old);
+    }
 
-template <>
-bool SceneWorld::act(const SoundAction& action) {
-    Material& material = materials_[static_cast<std::size_t>(action.material)];
-    material.frequencyHz = action.frequencyHz;
-    material.decayPerSecond = action.decayPerSecond;
-    return true;
-}
+    void operator()(const UnjoinAction& action) const {
+        const auto joint = w.joints_.find(action.joint);
+        if (joint == w.joints_.end()) return;
+        w.world_.DestroyJoint(joint->second.made); // wakes both bodies
+        w.joints_.erase(joint);
+    }
+    void operator()(const JoinAction& action) const {
+        (*this)(UnjoinAction{action.joint.name});
+        b2Body *const a = w.findInWorld(action.joint.bodyA), *const b = w.findInWorld(action.joint.bodyB);
+        if (a != nullptr && b != nullptr)
+            w.joints_.emplace(action.joint.name,
+                              HeldJoint{&createJoint(w.world_, action.joint, *a, *b), action.joint.joint});
+    }
+    void operator()(const MotorAction& action) const {
+        const auto place = w.joints_.find(action.joint);
+        if (place == w.joints_.end()) return;
+        forMotor(*place->second.made, [&](auto& joint) {
+            joint.SetMotorSpeed(static_cast<float>(action.radiansPerSecond * w.pace_.rate));
+            if (action.maxTorqueNewtonMetres)
+                joint.SetMaxMotorTorque(static_cast<float>(*action.maxTorqueNewtonMetres));
+        });
+    }
 
-template <>
-bool SceneWorld::act(const TextureAction& action) {
-    materials_[static_cast<std::size_t>(action.material)].setTexture(action.texture());
-    return true;
-}
+    /// Calls `change` with a body and the indices of one of its fixtures, or of all.
+    void forFixtures(const auto& action, auto change) const {
+        Body* const meant = w.find(action.body);
+        for (std::size_t i = 0; meant != nullptr && i < meant->fixtures.size(); ++i)
+            if (action.fixture == everyFixture || static_cast<std::size_t>(action.fixture) == i)
+                change(*meant, i);
+    }
+    void operator()(const CameraAction& action) const {
+        forFixtures(action, [&](Body& body, std::size_t i) { body.now.fixtures[i].isCamera = action.isOn; });
+    }
+    void operator()(const MaterialAction& action) const {
+        forFixtures(action, [&](Body& body, std::size_t i) { w.setMaterial(body, i, action.material); });
+        if (b2Body* body = w.findInWorld(action.body))
+            for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
+                edge->contact->ResetFriction(); // contacts keep the values they began with
+                edge->contact->ResetRestitution();
+            }
+    }
+    void operator()(const SoundAction& action) const {
+        Material& material = w.materials_[static_cast<std::size_t>(action.material)];
+        material.frequencyHz = action.frequencyHz;
+        material.decayPerSecond = action.decayPerSecond;
+    }
+    void operator()(const TextureAction& action) const {
+        w.materials_[static_cast<std::size_t>(action.material)].setTexture(action.texture());
+    }
+};
 
-template <>
-bool SceneWorld::act(const GripAction& action) {
-    if (b2Body* body = findInWorld(action.body)) grips_.act(*body, action, step_);
-    return false;
-}
-
-// After all specialisations, which it instantiates.
 bool SceneWorld::apply(const Action& action) {
-    return std::visit(
-        [this](const auto& one) {
-            if constexpr (!std::is_same_v<std::decay_t<decltype(one)>, SpawnAction>)
-                return act(one);
-            else
-                return false; // spawning needs to know its source
-        },
+    std::visit(Acts{*this}, action);
+    return isAnyOf<SpawnAction, ChangeAction, CameraAction, MaterialAction, SoundAction, TextureAction>(
         action);
 }
 

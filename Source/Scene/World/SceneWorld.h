@@ -14,7 +14,6 @@
 #include <random>
 #include <string>
 #include <string_view>
-#include <type_traits>
 #include <vector>
 
 namespace physvib {
@@ -309,25 +308,15 @@ private:
     bool actOnInputs(std::int64_t step);
     bool actOnScript(std::int64_t step);
     void take(const ScriptPace& pace);
-    bool apply(const Action& action);
-    bool spawn(const BodyDescription& body);
+    struct Acts;
+    bool apply(const Action& action); // true as of act(step)
+    void restart(const SpawnAction& action, int repetition);
     BodyStart startOf(const BodyDescription& body);
     void startHalfAStepBehind(b2Body& body) const;
-    void setGravity(const Vector& beforeHold);
     void holdDevice();
     Body* find(std::string_view name) noexcept; // nullptr if none has it
     b2Body* findInWorld(std::string_view name) noexcept;
-    /// Calls `change` with a body and the indices of one of its fixtures, or of all.
-    template <class Change>
-    void forFixtures(const std::string& body, int fixture, Change change);
     void setMaterial(Body& body, std::size_t fixture, int material);
-
-    bool act(const DueAction& due);
-    bool act(const SpawnAction& action, int repetition);
-    /// Executes any other action, each by a specialisation in SceneWorld.cpp. True as of act(step).
-    template <class One>
-    requires std::is_class_v<One>
-    bool act(const One& action);
     static void run(const Body& belt);
     void retire(std::size_t number);
     void moveJoints(b2Body& from, b2Body& to);

@@ -6,7 +6,7 @@
 #include "Core/CollisionEvent.h"
 #include "Physics/Attachment.h"
 #include "Scene/Scene.h"
-#include "Scene/SceneRun.h"
+#include "Scene/SceneEdits.h"
 #include "Scene/World/SceneWorld.h"
 #include <cstddef>
 #include <cstdint>

@@ -10,7 +10,6 @@
 #include "Scene/FieldSize.h"
 #include "Scene/LayoutFile.h"
 #include "System/Process.h"
-#include "System/StandardStreams.h"
 #include "Wire/SelfTest.h"
 #include <chrono>
 #include <iomanip>

@@ -140,8 +140,8 @@ void offerLayout(const CalibrateOptions& o, const ActuatorProfile& p) {
 /// Measures, and reports device errors.
 Result<RecordedSweep> measureAndTell(const CalibrateOptions& o) {
     auto sweep = measure(o);
-    if (sweep && sweep.value.xruns > 0)
-        std::cerr << "physvib: warning: xruns of the device during the sweep: " << sweep.value.xruns << '\n';
+    if (sweep && sweep.value.xruns > 0) // -1: not counted
+        warnOf(static_cast<std::uint64_t>(sweep.value.xruns), "xruns of the device during the sweep");
     return sweep;
 }
 

@@ -166,9 +166,7 @@ std::string renderTo(WavSink& wav, std::span<const CollisionEvent> events, const
     const RenderStatus status = renderOffline(events, settings, [&](const float* const* channels, int count) {
         return wav.write(channels, count);
     });
-    if (status.rejected > 0)
-        tell("warning: strikes that could not be played at " + std::to_string(rateHz) +
-             " Hz: " + std::to_string(status.rejected));
+    warnOf(status.rejected, "strikes that could not be played at " + std::to_string(rateHz) + " Hz");
     return wav.error();
 }
 

@@ -7,7 +7,6 @@
 #include "Io/Text/NumberText.h"
 #include "Live/Session/BoardLink.h"
 #include "System/Process.h"
-#include "System/StandardStreams.h"
 #include <algorithm>
 #include <iostream>
 

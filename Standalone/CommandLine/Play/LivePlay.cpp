@@ -13,7 +13,6 @@
 #include "Live/Recordings/ReadRecording.h"
 #include "Live/Rig/Rig.h"
 #include "System/Process.h"
-#include "System/StandardStreams.h"
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -39,9 +38,7 @@ std::string summary(const OscCounts& c) {
 void tellPort(const OscSettings& wanted, const std::string& address) {
     const std::string port = std::to_string(*wanted.port);
     const bool isWanted = *wanted.port == 0 || address.substr(address.rfind(':') + 1) == port;
-    tell(std::string("OSC: listening at ")
-             .append(address)
-             .append(isWanted ? "" : "; " + port + " is another program's"));
+    tell("OSC: listening at " + address + (isWanted ? "" : "; " + port + " is another program's"));
 }
 
 /// Prints a summary on stdout at the end. Any thread.
@@ -58,10 +55,7 @@ public:
     void tellWrong(const OscCounts& counts) {
         const std::uint64_t wrong = counts.wrong() + counts.late + counts.lost + counts.held;
         if (std::exchange(told_, wrong) == wrong) return;
-        tell(std::string("OSC: ")
-                 .append(summary(counts))
-                 .append(counts.fault.empty() ? "" : "; the last error: ")
-                 .append(counts.fault));
+        tell("OSC: " + summary(counts) + (counts.fault.empty() ? "" : "; the last error: ") + counts.fault);
     }
 
 private:
@@ -198,32 +192,17 @@ void summarise(Rig& rig, std::uint64_t played) {
         std::cout << "messages were felt " << 1e3 * session.timeline().directSeconds()
                   << " ms after they came\n";
     if (session.rendered().marks()) std::cout << "marked: " << markWords(*session.rendered().marks()) << '\n';
-    if (o.guarded > 0)
-        std::cerr
-            << "physvib: warning: actuators were turned down, as they would have got nearly direct current: "
-            << o.guarded << " times\n";
-    if (const std::uint64_t dropped = session.pulse().dropped(); dropped > 0)
-        std::cerr << "physvib: warning: no device ran when they came, so they were dropped: " << dropped
-                  << " events\n";
-    if (o.losses > 0)
-        std::cerr << "physvib: warning: the device had to be opened again: " << o.losses << " times\n";
+    warnOf(o.guarded, "actuators were turned down, as they would have got nearly direct current", " times");
+    warnOf(session.pulse().dropped(), "no device ran when they came, so they were dropped", " events");
+    warnOf(o.losses, "the device had to be opened again", " times");
 }
 
 void summariseRecording(const PlayedRecorder& recording, const std::string& path) {
-    if (!recording.isWhole())
-        std::cerr << "physvib: warning: the recording ends where the device changed its rate\n";
-    if (recording.framesLost() > 0)
-        std::cerr << "physvib: warning: frames missing in the recording: " << recording.framesLost() << '\n';
+    if (!recording.isWhole()) tell("warning: the recording ends where the device changed its rate");
+    warnOf(recording.framesLost(), "frames missing in the recording");
     if (recording.beginsSeconds() && recording.error().empty())
         std::cout << path << "  begins at session time " << fixedNumber(*recording.beginsSeconds(), 6)
                   << " s\n";
-}
-
-void summariseBeats(std::uint64_t beats, const InputTap& heard) {
-    std::cout << beats << " beats heard\n";
-    if (heard.piecesLost() > 0)
-        std::cerr << "physvib: warning: sound was lost on its way to the beats: " << heard.piecesLost()
-                  << " times\n";
 }
 
 std::unique_ptr<OscPort> makeOsc(const LivePlay& wanted, Rig& rig, MessageRouter& messages,
@@ -273,7 +252,10 @@ std::string playLive(LivePlay wanted) {
     const std::string unsaved = rig.finish(interrupted);
     if (told) summariseOsc(*told);
     summarise(rig, played);
-    if (rig.inputs()) summariseBeats(beats, *rig.inputs());
+    if (rig.inputs()) {
+        std::cout << beats << " beats heard\n";
+        warnOf(rig.inputs()->piecesLost(), "sound was lost on its way to the beats", " times");
+    }
     std::string trouble;
     std::cout << rig.summary(trouble);
     if (rig.recording()) summariseRecording(*rig.recording(), wanted.rig.recordPath);
@@ -304,14 +286,14 @@ Result<LoadedClip> takeSound(RenderJob& options, std::string_view device, Loaded
     if (!sound) return sound;
     const auto count = static_cast<int>(sound.value.channels.size());
     const ContactRecording& first = sound.value.channels.front();
-    if (!options.given.contains("--layout") && hasOneEach(sound.value)) {
+    if (!options.isGiven("--layout") && hasOneEach(sound.value)) {
         ActuatorLayout layout;
         options.layout = layoutFor(count, device);
         if (layoutPreset(options.layout, layout) && layout.count != count)
             return Failure{options.scene + ": " + channelsOf(sound.value) +
                            ": expected --layout with a file of as many actuators (Docs/render.md)"};
     }
-    if (!options.given.contains("--seconds"))
+    if (!options.isGiven("--seconds"))
         options.seconds = static_cast<double>(first.samples.size()) / first.sampleRateHz;
     Scene& scene = job.scene.emplace();
     scene.name = std::filesystem::path{options.scene}.filename().string();

@@ -23,6 +23,7 @@ namespace {
 /// Options of the scene, and of the output.
 struct PlayOptions {
     RenderJob scene;
+    LivePlay live; ///< what options set as it is played
     std::string device;
     std::string board;             ///< serial port of a four-channel board, alone or in addition to a device
     std::vector<std::string> pads; ///< game controllers: auto or a name, optionally with @PROFILE; alone or
@@ -33,13 +34,9 @@ struct PlayOptions {
     std::string noise;                              ///< outputs for pink noise, as in map; empty: none
     double noiseDb = PinkNoise::safeDb;             ///< root mean square, dB of full scale
     std::string driver = "thread";                  ///< or "message"
-    std::string recordPath;                         ///< WAV of the output; empty: none
-    std::string savePath;                           ///< the session as JSON; empty: none
-    bool listens = false, keepsPlaying = false, hasHands = false, isDirect = false; ///< listens: to stdin
-    std::string clips = "."; ///< folder of clips in standard input and OSC messages
-    std::string beatInputs;  ///< device inputs whose beats are played, as in map; empty: none
+    bool hasHands = false, isDirect = false;
+    std::string beatInputs; ///< device inputs whose beats are played, as in map; empty: none
     BeatOptions beats;
-    OscSettings osc;
     double oscTurnDegrees = 0.0;        ///< counter-clockwise rotation of a phone from upright
     double levelDb = safeStartDecibels; ///< master level
     std::string ceilings = "0";         ///< dB of full scale: one for all actuators, or one each
@@ -143,10 +140,10 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     command.add("--block", o.blockFrames, "frames per block; 0: device default")
         .in(0, limits::maxBlockFrames)
         .unshown();
-    command.add("--record", o.recordPath, "WAV of what was played, before the master level")
+    command.add("--record", o.live.rig.recordPath, "WAV of what was played, before the master level")
         .written("FILE.wav");
     command
-        .add("--save", o.savePath,
+        .add("--save", o.live.rig.savePath,
              "the session, to render it again; what was played beside it as .events.csv")
         .writtenAs("FILE.json");
     command
@@ -159,21 +156,22 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
     command.add("--direct", o.isDirect,
                 "low-latency mode for messages and controls: one block plus the limiter's look-ahead. "
                 "Collisions keep the normal output latency");
-    command.add("--listen", o.listens,
+    command.add("--listen", o.live.listens,
                 "take inputs and controls from standard input, a line of JSON each (Docs/sessions.md)");
-    command.add("--keep-playing", o.keepsPlaying,
+    command.add("--keep-playing", o.live.keepsPlaying,
                 "play on when standard input has ended, until --seconds are over: for a file of lines. "
                 "Without it that is silence and the end: who controls may have died");
-    command.add("--clips", o.clips, "folder from which messages of --listen and --osc may have clips read")
+    command
+        .add("--clips", o.live.clips, "folder from which messages of --listen and --osc may have clips read")
         .as("FOLDER")
         .existingFolder();
     command
-        .add("--osc", o.osc.port,
+        .add("--osc", o.live.osc.port,
              "take messages by OSC (Docs/osc.md) at this port of UDP, or the next free one; 0: any")
         .as("PORT")
         .in(0, 65'535);
     command
-        .add("--osc-interface", o.osc.address,
+        .add("--osc-interface", o.live.osc.address,
              "address of this computer at which they are taken; 0.0.0.0: any, for phones")
         .as("ADDRESS");
     command
@@ -182,7 +180,7 @@ void declarePlayOptions(OptionTable& command, PlayOptions& o) {
         .as("DEGREES")
         .in(-180.0, 180.0)
         .unshown();
-    command.add("--osc-to", o.osc.receiver, "send each hit as it is felt, and the status once a second")
+    command.add("--osc-to", o.live.osc.receiver, "send each hit as it is felt, and the status once a second")
         .as("HOST:PORT");
 }
 
@@ -219,7 +217,7 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     const bool hasBoard = std::ranges::find(outputs.sinks, "BOARD", &SinkName::kind) != outputs.sinks.end();
     if (auto refusal = sceneFault(o.scene); !refusal.empty()) return leave(exitUsage, refusal);
     if (!o.scene.coupling.empty()) return leave(exitUsage, "--coupling: not yet live; render has it");
-    if (o.scene.limiting == Limiting::blocks && !o.savePath.empty())
+    if (o.scene.limiting == Limiting::blocks && !o.live.rig.savePath.empty())
         return leave(exitUsage, "--limiter blocks: expected no --save, as a session does not keep blocks");
     const bool isPlain = o.scene.method.fixesNothing() && !o.scene.playsRecordings &&
                          o.scene.actuator == "none" && o.scene.levelDb == 0.0 && o.scene.gamma == 0.0 &&
@@ -269,9 +267,10 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
     for (const std::string& line : calibrationWarnings(o.scene, job.layout)) tell("warning: " + line);
     for (const std::string& line : levelNotes(job.actuators, o.scene.sampleRateHz)) tell(line);
     const std::vector<std::string> written{
-        o.recordPath, o.savePath,
-        o.savePath.empty() ? ""
-                           : std::filesystem::path{o.savePath}.replace_extension(".events.csv").string()};
+        o.live.rig.recordPath, o.live.rig.savePath,
+        o.live.rig.savePath.empty()
+            ? ""
+            : std::filesystem::path{o.live.rig.savePath}.replace_extension(".events.csv").string()};
     if (auto clash = fileClash(written, job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
     if (!parseMap(o.map, settings.channelMap))
@@ -303,24 +302,18 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
                                     std::to_string(setup.channels) + "), found \"" + o.ceilings + "\"");
     if (hasBoard && std::ranges::any_of(setup.ceilings, [](float ceiling) { return ceiling < 1.0f; }))
         return leave(exitUsage, "--ceiling: a board has none below full scale; expected a lower --level");
-    OscSettings osc = o.osc;
-    osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
     setup.log = LogUse::none;
-    LivePlay wanted{
-        .rig = {.setup = setup,
-                .output = settings,
-                .sinks = outputs.sinks,
-                .ownThread = o.driver == "thread",
-                .recordPath = o.recordPath,
-                .savePath = o.savePath,
-                .provenance = {PHYSVIB_VERSION, {{"scene", setup.scene.name}, {"session", o.savePath}}}},
-        .seconds = o.scene.seconds,
-        .listens = o.listens,
-        .beatSensitivity = o.beats.sensitivity,
-        .osc = osc,
-        .clips = o.clips,
-        .keepsPlaying = o.keepsPlaying,
-        .sound = std::move(sound)};
+    LivePlay& wanted = o.live;
+    wanted.rig.setup = setup;
+    wanted.rig.output = settings;
+    wanted.rig.sinks = outputs.sinks;
+    wanted.rig.ownThread = o.driver == "thread";
+    wanted.rig.provenance = {PHYSVIB_VERSION,
+                             {{"scene", setup.scene.name}, {"session", wanted.rig.savePath}}};
+    wanted.seconds = o.scene.seconds;
+    wanted.beatSensitivity = o.beats.sensitivity;
+    wanted.osc.turnRadians = o.oscTurnDegrees * std::numbers::pi / 180.0;
+    wanted.sound = std::move(sound);
     if (!settings.inputs.empty()) wanted.beats = voices.value;
     const std::string error = playLive(std::move(wanted));
     return error.empty() ? exitDone : leave(exitFailed, error);

@@ -53,19 +53,16 @@ void tellLosses(const LoadedRender& job, const std::vector<ClipPart>& parts, Cli
         tell("warning: a file for each actuator; for one file of all hits: --layout phone1");
     if (job.session && !job.session->log.channels.empty())
         tell("warning: gains, mutes and stops of the session are not carried: hits are as they were struck");
-    if (job.made.drops > 0)
-        tell("warning: collisions lost because too many began in one physics step: " +
-             std::to_string(job.made.drops));
+    warnOf(job.made.drops, "collisions lost because too many began in one physics step");
 }
 
 /// Words of the call that say nothing here.
 std::string refusalOf(const RenderJob& o) {
     if (o.scene.empty()) return "export: give a scene, a saved session, EVENTS.csv or a clip";
-    for (const char* other :
-         {"--sound", "--sound-match", "--coupling", "--contact-sound-db", "--limiter", "--equalise"})
-        if (o.given.contains(other))
-            return std::string{other} +
-                   ": says how something is played, not what it is: expected with render or play";
+    if (const char* other = o.firstGiven(
+            {"--sound", "--sound-match", "--coupling", "--contact-sound-db", "--limiter", "--equalise"}))
+        return std::string{other} +
+               ": says how something is played, not what it is: expected with render or play";
     return o.playsRecordings ? "--method SV: recordings are no waves to be exported" : "";
 }
 
@@ -79,7 +76,7 @@ std::string takeEvents(LoadedRender& job, std::vector<std::string>& warnings) {
     auto made = makeEvents(job);
     if (!made) return made.error;
     warnings = std::move(made.value);
-    if (job.scene || job.options.given.contains("--seconds"))
+    if (job.scene || job.options.isGiven("--seconds"))
         std::erase_if(job.made.events, [&](const CollisionEvent& e) { return e.timeNs >= job.endNs(); });
     return {};
 }

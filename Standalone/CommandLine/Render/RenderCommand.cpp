@@ -34,20 +34,19 @@ std::string tooHighFor(int rateHz, const std::vector<CollisionEvent>& events, co
 
 // What was lost or altered must not go unseen.
 void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
-    const auto say = [](std::uint64_t count, const char* what) {
-        if (count > 0) std::cerr << "physvib: warning: " << what << ": " << count << '\n';
-    };
     const auto& events = job.made.events;
     const auto beyond =
         std::count_if(events.begin(), events.end(), [&](const auto& e) { return e.timeNs >= job.endNs(); });
-    say(job.made.drops, "collisions lost because too many began in one physics step");
-    say(status.rejected, "events that could not be played");
-    say(status.late, "events played late");
-    say(status.withoutPart, "events of a part of the body that no actuator has, felt by their place on all");
-    say(status.stolen, "modes faded out early because too many different ones sounded at once");
-    say(status.nonFinite, "samples that were not finite and became silence");
-    say(status.guarded, "times an actuator was turned down, as it would have got nearly direct current");
-    say(static_cast<std::uint64_t>(beyond), "events that begin after the end of the render (see --seconds)");
+    warnOf(job.made.drops, "collisions lost because too many began in one physics step");
+    warnOf(status.rejected, "events that could not be played");
+    warnOf(status.late, "events played late");
+    warnOf(status.withoutPart,
+           "events of a part of the body that no actuator has, felt by their place on all");
+    warnOf(status.stolen, "modes faded out early because too many different ones sounded at once");
+    warnOf(status.nonFinite, "samples that were not finite and became silence");
+    warnOf(status.guarded, "times an actuator was turned down, as it would have got nearly direct current");
+    warnOf(static_cast<std::uint64_t>(beyond),
+           "events that begin after the end of the render (see --seconds)");
     if (job.scene || job.clip) return;
     const std::string outside = outsideWarning(events, job.field(), job.hasGuessedField());
     if (!outside.empty()) tell("warning: " + outside);

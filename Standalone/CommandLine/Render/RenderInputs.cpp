@@ -12,21 +12,23 @@
 namespace physvib {
 namespace {
 
-std::string readInputs(LoadedRender& job) {
-    if (job.session && !job.options.given.contains("--layout")) {
-        job.layout = job.session->layout;
-    } else {
-        auto layout = layoutNamed(job.options.layout);
-        if (!layout) return layout.error;
-        job.layout = std::move(layout.value);
-    }
-    auto calibrated = calibratedLayout(job.options, std::move(job.layout));
-    if (!calibrated) return calibrated.error;
-    job.layout = std::move(calibrated.value);
+/// The layout, `own` unless one is given, and what its actuators need; or one line.
+std::string chooseLayout(LoadedRender& job, std::optional<LayoutDescription> own) {
+    const bool isOwn = own && !job.options.isGiven("--layout");
+    auto layout = isOwn ? Result{std::move(*own)} : layoutNamed(job.options.layout);
+    if (layout) layout = calibratedLayout(job.options, std::move(layout.value));
+    if (!layout) return layout.error;
+    job.layout = std::move(layout.value);
     if (auto fault = fixedLevelFault(job); !fault.empty()) return fault;
     auto actuators = chooseActuators(job.options, job.layout);
-    if (!actuators) return actuators.error;
     job.actuators = std::move(actuators.value);
+    return actuators.error;
+}
+
+std::string readInputs(LoadedRender& job) {
+    if (auto fault = chooseLayout(job, job.session ? std::optional{job.session->layout} : std::nullopt);
+        !fault.empty())
+        return fault;
     if (!job.options.coupling.empty()) {
         if (job.session)
             return "--coupling: expected a scene or events; a saved session may change its layout and play "
@@ -143,30 +145,20 @@ Result<FrequencyScale> frequencyScaleOf(const RenderJob& options) {
 
 int takeClip(LoadedRender& job) {
     const RenderJob& o = job.options;
-    for (const char* other :
-         {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--method", "--sound",
-          "--perceived-level", "--remap", "--contact-sound", "--marker", "--events", "--coupling"})
-        if (o.given.contains(other))
-            return leave(exitUsage, std::string{other} + ": a clip has no collisions");
+    if (const char* other = o.firstGiven({"--set", "--seed", "--steps-per-second", "--location", "--timing",
+                                          "--method", "--sound", "--perceived-level", "--remap",
+                                          "--contact-sound", "--marker", "--events", "--coupling"}))
+        return leave(exitUsage, std::string{other} + ": a clip has no collisions");
     const auto scale = frequencyScaleOf(o);
     if (!scale) return leave(exitFailed, scale.error);
     auto clip = loadClip(o.scene, *clipFormatOf(o.scene), scale.value);
     if (!clip) return leave(exitFailed, clip.error);
     if (!clip.value.leftOut.empty()) tell("warning: " + o.scene + ": " + clip.value.leftOut);
     job.clip = std::move(clip.value);
-    if (!o.given.contains("--layout") && hasPlaces(*job.clip)) {
-        job.layout = layoutOf(*job.clip);
-    } else {
-        auto layout = layoutNamed(o.layout);
-        if (!layout) return leave(exitFailed, layout.error);
-        job.layout = std::move(layout.value);
-    }
-    auto calibrated = calibratedLayout(o, std::move(job.layout));
-    if (!calibrated) return leave(exitFailed, calibrated.error);
-    job.layout = std::move(calibrated.value);
-    auto actuators = chooseActuators(o, job.layout);
-    if (!actuators) return leave(exitFailed, actuators.error);
-    job.actuators = std::move(actuators.value);
+    if (auto fault =
+            chooseLayout(job, hasPlaces(*job.clip) ? std::optional{layoutOf(*job.clip)} : std::nullopt);
+        !fault.empty())
+        return leave(exitFailed, fault);
     const std::string fault = faultOf(job);
     return fault.empty() ? exitDone : leave(exitFailed, o.scene + ": " + fault);
 }
