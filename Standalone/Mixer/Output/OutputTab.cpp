@@ -183,8 +183,8 @@ juce::String OutputTab::ownersOf(int output, bool isMuteTold) const {
 // Lists output pairs for headphones, with the labels of actuators that would lose an output.
 void OutputTab::listHeard() {
     const auto& choice = model_.device().choice();
-    monitor_.clear(juce::dontSendNotification);
-    marks_.clear(juce::dontSendNotification);
+    monitor_.clear(quietly);
+    marks_.clear(quietly);
     monitor_.addItem("none", noneId);
     marks_.addItem("none", noneId);
     for (int k = 0; k < model_.device().outputs(); ++k) {
@@ -195,19 +195,18 @@ void OutputTab::listHeard() {
                              (owners.isEmpty() ? juce::String{} : ", instead of" + owners),
                          noneId + 1 + k);
     }
-    monitor_.setSelectedId(choice.monitor.empty() ? noneId : noneId + 1 + choice.monitor[0],
-                           juce::dontSendNotification);
+    monitor_.setSelectedId(choice.monitor.empty() ? noneId : noneId + 1 + choice.monitor[0], quietly);
     if (choice.monitor.size() == 2 && model_.device().listening().settings().contacts.empty()) {
         const auto owners = ownersOf(choice.monitor[0]) + ownersOf(choice.monitor[1]);
         monitor_.setText("off: outputs " + juce::String{choice.monitor[0] + 1} + " and " +
                              juce::String{choice.monitor[1] + 1} +
                              (owners.isEmpty() ? juce::String{} : ", which are of" + owners),
-                         juce::dontSendNotification);
+                         quietly);
     }
-    monitorLevel_.setSelectedId(levelId - juce::roundToInt(choice.monitorDb), juce::dontSendNotification);
+    monitorLevel_.setSelectedId(levelId - juce::roundToInt(choice.monitorDb), quietly);
     if (monitorLevel_.getSelectedId() == 0)
-        monitorLevel_.setText(number(choice.monitorDb, 1) + " dBFS", juce::dontSendNotification);
-    marks_.setSelectedId(noneId + 1 + choice.marker, juce::dontSendNotification);
+        monitorLevel_.setText(number(choice.monitorDb, 1) + " dBFS", quietly);
+    marks_.setSelectedId(noneId + 1 + choice.marker, quietly);
 }
 
 void OutputTab::chooseMonitor() {
@@ -265,7 +264,7 @@ std::vector<Fact> OutputTab::sinkFacts() const {
 
 void OutputTab::mixChanged() {
     const auto& choice = model_.device().choice();
-    device_.clear(juce::dontSendNotification);
+    device_.clear(quietly);
     int chosen = 0;
     const bool isNone = choice.name.starts_with(noDeviceType);
     if (!isNone) worn_ = choice.name;
@@ -282,13 +281,13 @@ void OutputTab::mixChanged() {
     if (!worn_.empty()) device_.addItem("Headphones: " + utf8(worn_) + " (L and R)", earsId);
     if (choice.isHeadphones && !isNone) chosen = earsId;
     listSinks();
-    device_.setSelectedId(chosen, juce::dontSendNotification);
+    device_.setSelectedId(chosen, quietly);
     auto all = !isNone ? (chosen > 0 ? device_.getText() : utf8(choice.name))
                        : juce::String{choice.sinks.empty() ? noDeviceTitle : "No device"};
     for (const SinkName& sink : choice.sinks) all << " + " << kindOf(sink).title.data();
-    device_.setText(all, juce::dontSendNotification);
-    rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
-    block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
+    device_.setText(all, quietly);
+    rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, quietly);
+    block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, quietly);
     listHeard();
     showOsc();
 }
@@ -424,14 +423,14 @@ void OutputTab::showOsc() {
     const OscChoice& choice = model_.inputs().choice();
     const auto known = choice.receiver.empty() ? hits_.getItemText(hits_.indexOfItemId(knownReceiverId))
                                                : utf8(choice.receiver);
-    osc_.setSelectedItemIndex(static_cast<int>(choice.use), juce::dontSendNotification);
-    hits_.clear(juce::dontSendNotification);
+    osc_.setSelectedItemIndex(static_cast<int>(choice.use), quietly);
+    hits_.clear(quietly);
     hits_.addItem("nobody", nobodyId);
     if (known.isNotEmpty()) hits_.addItem(known, knownReceiverId);
     hits_.addItem("another program" + dots(), otherReceiverId);
-    hits_.setSelectedId(choice.receiver.empty() ? nobodyId : knownReceiverId, juce::dontSendNotification);
+    hits_.setSelectedId(choice.receiver.empty() ? nobodyId : knownReceiverId, quietly);
     const auto hold = std::ranges::find(phoneHolds, choice.turnDegrees, &PhoneHold::turnDegrees);
-    phone_.setSelectedItemIndex(static_cast<int>(hold - phoneHolds.begin()), juce::dontSendNotification);
+    phone_.setSelectedItemIndex(static_cast<int>(hold - phoneHolds.begin()), quietly);
 }
 
 juce::String OutputTab::oscState(Shade& state) const {

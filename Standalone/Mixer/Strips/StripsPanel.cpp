@@ -50,7 +50,7 @@ void StripView::change(const juce::String& name, const std::function<void(Strip&
 }
 
 void StripView::fillOutputs() {
-    output_.clear(juce::dontSendNotification);
+    output_.clear(quietly);
     output_.addItem("none", 1);
     std::vector<juce::String> names;
     const DeviceChoice& choice = model_.device().choice();
@@ -71,7 +71,7 @@ void StripView::fillOutputs() {
         output_.setItemEnabled(k++ + 2, !isInUse);
     }
     if (own >= model_.device().outputs()) output_.addItem(utf8(choice.nameOf(own)) + gone, own + 2);
-    output_.setSelectedId(strip().output + 2, juce::dontSendNotification);
+    output_.setSelectedId(strip().output + 2, quietly);
 }
 
 void StripView::mixChanged() {
@@ -88,8 +88,7 @@ void StripView::refresh(const MixerMoment& moment) {
     if (!isThere()) return;
     if (strip().output >= 0 && isPlaced_ != model_.output().isPlaced(static_cast<int>(index_))) fillOutputs();
     meter_.set(moment.meters.peaks[index_], moment.holds[index_]);
-    level_.setText(inG(model_.isSilent() ? 0.0 : gOf(model_, index_, moment.holds[index_])),
-                   juce::dontSendNotification);
+    level_.setText(inG(model_.isSilent() ? 0.0 : gOf(model_, index_, moment.holds[index_])), quietly);
 }
 
 bool StripView::keyPressed(const juce::KeyPress& key) {
@@ -176,8 +175,18 @@ void StripsPanel::mixChanged() {
     const bool areOther = labels != labels_, areOtherGroups = names != groupNames_;
     labels_ = labels;
     groupNames_ = names;
-    if (areOther) makeStrips();
-    if (areOtherGroups) makeGroups();
+    const auto make = [this](auto& views, int count) {
+        using View = typename std::decay_t<decltype(views)>::value_type::element_type;
+        views.clear();
+        for (int k = 0; k < count; ++k)
+            row_.addAndMakeVisible(*views.emplace_back(std::make_unique<View>(model_, k)));
+        for (auto& view : views) prepareControls(*view); // colours depend on the parent component
+    };
+    if (areOther) {
+        make(strips_, model_.mix().count());
+        for (auto& group : groups_) group->toFront(false);
+    }
+    if (areOtherGroups) make(groups_, names.size());
     for (auto& strip : strips_) strip->mixChanged();
     for (auto& group : groups_) group->mixChanged();
     if (areOther || areOtherGroups) {
@@ -186,25 +195,6 @@ void StripsPanel::mixChanged() {
     }
     attach_.setVisible(model_.mix().count() < limits::maxEnchanters);
     master_.mixChanged();
-}
-
-void StripsPanel::makeStrips() {
-    strips_.clear();
-    for (int j = 0; j < model_.mix().count(); ++j) {
-        strips_.push_back(std::make_unique<StripView>(model_, j));
-        row_.addAndMakeVisible(*strips_.back());
-    }
-    for (auto& strip : strips_) prepareControls(*strip); // colours depend on the parent component
-    for (auto& group : groups_) group->toFront(false);
-}
-
-void StripsPanel::makeGroups() {
-    groups_.clear();
-    for (int k = 0; k < static_cast<int>(model_.mix().groups.size()); ++k) {
-        groups_.push_back(std::make_unique<GroupView>(model_, k));
-        row_.addAndMakeVisible(*groups_.back());
-    }
-    for (auto& group : groups_) prepareControls(*group);
 }
 
 void StripsPanel::refresh(const MixerMoment& moment) {
@@ -312,17 +302,16 @@ void GroupView::rename() {
     if (isFit && name != utf8(group().name))
         change("Name", [&](StripGroup& g) { g.name = name.toStdString(); });
     else
-        name_.setText(utf8(group().name), juce::dontSendNotification);
+        name_.setText(utf8(group().name), quietly);
 }
 
 void GroupView::mixChanged() {
-    if (!name_.isBeingEdited()) name_.setText(utf8(group().name), juce::dontSendNotification);
-    if (!fader_.isMouseButtonDown()) fader_.setValue(group().gainDb, juce::dontSendNotification);
-    level_.setText(group().gainDb <= leastStripDb ? juce::String{"silent"}
-                                                  : number(group().gainDb, 1) + " dB",
-                   juce::dontSendNotification);
+    if (!name_.isBeingEdited()) name_.setText(utf8(group().name), quietly);
+    if (!fader_.isMouseButtonDown()) fader_.setValue(group().gainDb, quietly);
+    level_.setText(
+        group().gainDb <= leastStripDb ? juce::String{"silent"} : number(group().gainDb, 1) + " dB", quietly);
     level_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
-    mute_.setToggleState(group().isMuted, juce::dontSendNotification);
+    mute_.setToggleState(group().isMuted, quietly);
     repaint();
 }
 

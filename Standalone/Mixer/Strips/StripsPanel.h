@@ -94,8 +94,6 @@ private:
 
     static constexpr int between = 6, attachWidth = 52;
     int fixedWidth() const; ///< of the row, beside its strips
-    void makeStrips();
-    void makeGroups();
 
     MixerModel& model_;
     struct Row final : juce::Viewport {
