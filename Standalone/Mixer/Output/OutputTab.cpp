@@ -66,8 +66,19 @@ OutputTab::OutputTab(MixerModel& model)
              "A pulse at the sample of each onset, for trigger boxes. No actuator and no ear belongs there");
     for (const int db : monitorLevels) monitorLevel_.addItem(number(db, 0) + " dBFS", levelId - db);
     for (auto* box : {&monitor_, &monitorLevel_}) box->onChange = [this] { chooseMonitor(); };
-    marks_.onChange = [this] { chooseMarks(); };
-    prepareOsc();
+    marks_.onChange = [this] {
+        model_.reportFault(model_.device().listening().mark(marks_.getSelectedId() - noneId - 1));
+        listHeard();
+    };
+    describe(osc_, "OSC", "Who may strike, tilt and set gains by messages over the network: phones, Pd, Max");
+    for (int use = 0; use < static_cast<int>(oscUses.size()); ++use) osc_.addItem(nth(oscUses, use), use + 1);
+    describe(hits_, "Hits by OSC",
+             "HOST:PORT of a program that hears of each hit as it is felt, and of the status once a second");
+    describe(phone_, "Phone", "How a phone is held that tilts the world by OSC: where its top points");
+    for (int k = 0; k < static_cast<int>(phoneHolds.size()); ++k)
+        phone_.addItem(nth(phoneHolds, k).words, k + 1);
+    for (auto* box : {&osc_, &phone_}) box->onChange = [this] { listen(); };
+    hits_.onChange = [this] { chooseReceiver(); };
     device_.setTitle("Device");
     rate_.setTitle("Rate");
     block_.setTitle("Block");
@@ -218,11 +229,6 @@ void OutputTab::chooseMonitor() {
     listHeard();
 }
 
-void OutputTab::chooseMarks() {
-    model_.reportFault(model_.device().listening().mark(marks_.getSelectedId() - noneId - 1));
-    listHeard();
-}
-
 juce::String OutputTab::heardWords() const {
     const auto& sent = model_.device().listening().settings();
     juce::String words;
@@ -363,18 +369,6 @@ void OutputTab::resized() {
     placeGrid(area, cells);
     area.removeFromTop(12);
     facts_.setBounds(area);
-}
-
-void OutputTab::prepareOsc() {
-    describe(osc_, "OSC", "Who may strike, tilt and set gains by messages over the network: phones, Pd, Max");
-    for (int use = 0; use < static_cast<int>(oscUses.size()); ++use) osc_.addItem(nth(oscUses, use), use + 1);
-    describe(hits_, "Hits by OSC",
-             "HOST:PORT of a program that hears of each hit as it is felt, and of the status once a second");
-    describe(phone_, "Phone", "How a phone is held that tilts the world by OSC: where its top points");
-    for (int k = 0; k < static_cast<int>(phoneHolds.size()); ++k)
-        phone_.addItem(nth(phoneHolds, k).words, k + 1);
-    for (auto* box : {&osc_, &phone_}) box->onChange = [this] { listen(); };
-    hits_.onChange = [this] { chooseReceiver(); };
 }
 
 void OutputTab::listen() {

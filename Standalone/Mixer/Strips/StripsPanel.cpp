@@ -6,6 +6,30 @@
 #include "Io/Disk/ReadFile.h"
 
 namespace physvib {
+namespace {
+
+/// Of the groups that a strip may have, and a new one.
+void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& from) {
+    const auto& mix = model.mix();
+    const auto label = labelOf(mix, strip);
+    const auto put = [&model, strip, label](int group) {
+        model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = group; });
+    };
+    juce::PopupMenu menu;
+    menu.addSectionHeader("Group of " + label);
+    menu.addItem("None", true, mix.strips[strip].group < 0, [put] { put(-1); });
+    for (int k = 0; k < static_cast<int>(mix.groups.size()); ++k)
+        menu.addItem(utf8(nth(mix.groups, k).name), true, mix.strips[strip].group == k, [put, k] { put(k); });
+    menu.addSeparator();
+    const auto fresh = freeGroupName(mix);
+    menu.addItem("New: " + utf8(fresh), mix.groups.size() < mostGroups, false, [&model, strip, label, fresh] {
+        model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = addGroup(m, fresh); });
+    });
+    menu.setLookAndFeel(&from.getLookAndFeel());
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from));
+}
+
+} // namespace
 
 StripView::StripView(MixerModel& model, int strip)
     : StripParts{labelOf(model.mix(), strip)}
@@ -353,26 +377,6 @@ void GroupView::resized() {
     level_.setBounds(area.removeFromBottom(18));
     area.removeFromBottom(8);
     fader_.setBounds(area.withSizeKeepingCentre(32, area.getHeight()).expanded(0, 8));
-}
-
-void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& from) {
-    const auto& mix = model.mix();
-    const auto label = labelOf(mix, strip);
-    const auto put = [&model, strip, label](int group) {
-        model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = group; });
-    };
-    juce::PopupMenu menu;
-    menu.addSectionHeader("Group of " + label);
-    menu.addItem("None", true, mix.strips[strip].group < 0, [put] { put(-1); });
-    for (int k = 0; k < static_cast<int>(mix.groups.size()); ++k)
-        menu.addItem(utf8(nth(mix.groups, k).name), true, mix.strips[strip].group == k, [put, k] { put(k); });
-    menu.addSeparator();
-    const auto fresh = freeGroupName(mix);
-    menu.addItem("New: " + utf8(fresh), mix.groups.size() < mostGroups, false, [&model, strip, label, fresh] {
-        model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = addGroup(m, fresh); });
-    });
-    menu.setLookAndFeel(&from.getLookAndFeel());
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from));
 }
 
 } // namespace physvib

@@ -70,9 +70,6 @@ private:
     std::unique_ptr<juce::TextButton> remove_;
 };
 
-/// Menu of groups for a strip, including a new one. Message thread.
-void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& from);
-
 class StripsPanel final : public juce::Component {
 public:
     explicit StripsPanel(MixerModel& model);
