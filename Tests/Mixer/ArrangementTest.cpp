@@ -84,29 +84,28 @@ TEST(Arrangement, DividersAreKeptAsTextAndNonsenseIsAutomatic) {
     EXPECT_EQ(Dividers::of(""), Dividers{});
 }
 
-struct Window {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
-    void attach(int count) {
+struct ArrangedView : testing::Test, MixerInView {
+    void attachUpTo(int count) {
         while (model.mix().count() < count && model.attach(0.5, 0.5)) {
         }
         model.dispatchPendingMessages();
     }
+    juce::Point<float> fieldSize() {
+        const auto& world = view.world().view();
+        return world.placeOfShare({1.0, 0.0}) - world.placeOfShare({0.0, 1.0});
+    }
 };
 
 // Of the whole window, with its bar.
-TEST(Arrangement, TheWorldHasTheRoom) {
-    Window w;
+TEST_F(ArrangedView, TheWorldHasTheRoom) {
     for (const auto& [width, height, engineer, play] :
          {std::tuple{1024, 700, 0.45, 0.85}, {1280, 800, 0.55, 0.85}, {1440, 900, 0.55, 0.85}}) {
-        w.view.setSize(width, height);
+        view.setSize(width, height);
         for (const auto& [mode, least] : {std::pair{Mode::engineer, engineer}, {Mode::play, play}}) {
-            w.view.setMode(mode);
-            const double share =
-                1.0 * w.view.world().getWidth() * w.view.world().getHeight() / (width * height);
+            view.setMode(mode);
+            const double share = 1.0 * view.world().getWidth() * view.world().getHeight() / (width * height);
             EXPECT_GE(share, least) << width << (mode == Mode::play ? " to play" : " engineer");
-            const auto& view = w.view.world().view();
-            const auto field = view.placeOfShare({1.0, 0.0}) - view.placeOfShare({0.0, 1.0});
+            const auto field = fieldSize();
             if (width == 1280)
                 EXPECT_GE(field.x * field.y / static_cast<float>(width * height),
                           mode == Mode::play ? 0.6f : 0.25f);
@@ -114,35 +113,32 @@ TEST(Arrangement, TheWorldHasTheRoom) {
     }
 }
 
-TEST(Arrangement, ASmallWindowFoldsTheStripsUntilOneAsksForThem) {
-    Window w;
-    w.view.setMode(Mode::engineer);
-    w.view.setSize(1280, 800);
-    EXPECT_TRUE(find(w.view, "Mixer")->isVisible());
-    w.view.setSize(1024, 700);
-    EXPECT_FALSE(find(w.view, "Mixer")->isVisible());
+TEST_F(ArrangedView, ASmallWindowFoldsTheStripsUntilOneAsksForThem) {
+    view.setMode(Mode::engineer);
+    view.setSize(1280, 800);
+    EXPECT_TRUE(the(view, "Mixer").isVisible());
+    view.setSize(1024, 700);
+    EXPECT_FALSE(the(view, "Mixer").isVisible());
     for (const char* title : {"Silence", "Master in a row", "Device state", "Strongest hit", "Scope"})
-        EXPECT_TRUE(find(w.view, title)->isVisible()) << title;
-    const auto& view = w.view.world().view();
-    const auto field = view.placeOfShare({1.0, 0.0}) - view.placeOfShare({0.0, 1.0});
+        EXPECT_TRUE(the(view, title).isVisible()) << title;
+    const auto field = fieldSize();
     EXPECT_GE(field.x * field.y / (1024.0f * 700.0f), 0.3f);
-    w.view.keyPressed(juce::KeyPress{juce::KeyPress::F3Key});
-    EXPECT_TRUE(find(w.view, "Mixer")->isVisible());
-    EXPECT_EQ(w.view.order(), "engineer - 01");
-    w.view.setSize(1280, 800);
-    w.view.setSize(1024, 700);
-    EXPECT_TRUE(find(w.view, "Mixer")->isVisible()) << "as it was asked for";
+    view.keyPressed(juce::KeyPress{juce::KeyPress::F3Key});
+    EXPECT_TRUE(the(view, "Mixer").isVisible());
+    EXPECT_EQ(view.order(), "engineer - 01");
+    view.setSize(1280, 800);
+    view.setSize(1024, 700);
+    EXPECT_TRUE(the(view, "Mixer").isVisible()) << "as it was asked for";
 }
 
-TEST(Arrangement, WhateverScrollsTheStripsAWholeOneStandsAtTheEdge) {
-    Window w;
-    w.view.setMode(Mode::engineer);
-    w.view.setPanels({false, true});
-    w.view.setSize(1280, 800);
-    w.attach(24);
-    auto* strips = find(w.view, "Mixer");
+TEST_F(ArrangedView, WhateverScrollsTheStripsAWholeOneStandsAtTheEdge) {
+    view.setMode(Mode::engineer);
+    view.setPanels({false, true});
+    view.setSize(1280, 800);
+    attachUpTo(24);
+    auto& strips = the(view, "Mixer");
     juce::Viewport* row = nullptr;
-    for (auto* child : strips->getChildren())
+    for (auto* child : strips.getChildren())
         if (auto* port = dynamic_cast<juce::Viewport*>(child)) row = port;
     ASSERT_NE(row, nullptr);
     for (const int x : {13, 100, 211, 333}) {
@@ -154,11 +150,10 @@ TEST(Arrangement, WhateverScrollsTheStripsAWholeOneStandsAtTheEdge) {
     }
 }
 
-TEST(Arrangement, ToPlayThereIsTheWorldAndWhatSilencesLimitsAndWarns) {
-    Window w;
-    w.view.setSize(1280, 800);
+TEST_F(ArrangedView, ToPlayThereIsTheWorldAndWhatSilencesLimitsAndWarns) {
+    view.setSize(1280, 800);
     const auto isThere = [&](const char* title) {
-        return find(w.view, title)->isShowing() || find(w.view, title)->isVisible();
+        return the(view, title).isShowing() || the(view, title).isVisible();
     };
     const auto areThere = [&](std::initializer_list<const char*> titles, bool are) {
         for (const char* title : titles) EXPECT_EQ(isThere(title), are) << title;
@@ -166,116 +161,112 @@ TEST(Arrangement, ToPlayThereIsTheWorldAndWhatSilencesLimitsAndWarns) {
     const std::initializer_list<const char*> engineers{"Tabs", "Scope", "Drag strength", "Seed",
                                                        "Slow motion"};
     areThere(engineers, true);
-    w.view.keyPressed(juce::KeyPress{juce::KeyPress::F2Key});
-    ASSERT_EQ(w.view.mode(), Mode::play);
+    view.keyPressed(juce::KeyPress{juce::KeyPress::F2Key});
+    ASSERT_EQ(view.mode(), Mode::play);
     areThere(engineers, false);
     areThere({"Silence", "Record", "Tools", "Master gain, in a row", "Strongest hit", "Device state", "Mode"},
              true);
     areThere({"Mixer"}, false);
-    w.view.keyPressed(juce::KeyPress{juce::KeyPress::F3Key});
+    view.keyPressed(juce::KeyPress{juce::KeyPress::F3Key});
     areThere({"Mixer", "Scope"}, true);
     areThere({"Master in a row"}, false);
-    w.view.keyPressed(juce::KeyPress{juce::KeyPress::F4Key});
+    view.keyPressed(juce::KeyPress{juce::KeyPress::F4Key});
     areThere({"Tabs"}, true);
-    w.model.report("a fault");
-    w.model.dispatchPendingMessages();
+    model.report("a fault");
+    model.dispatchPendingMessages();
     areThere({"Trouble"}, true);
-    w.view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
-    EXPECT_TRUE(w.model.isSilent());
-    const auto order = w.view.order();
-    w.view.setMode(Mode::engineer);
-    EXPECT_EQ(w.view.panels(), (Panels{false, true})) << "each mode keeps its own";
-    w.view.setOrder(order);
-    EXPECT_EQ(w.view.mode(), Mode::play);
-    EXPECT_EQ(w.view.panels(), (Panels{true, true}));
-    for (const char* nonsense : {"", "engineer", "play x 1 77"}) w.view.setOrder(nonsense);
-    EXPECT_EQ(w.view.mode(), Mode::play) << "a first start";
+    view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    EXPECT_TRUE(model.isSilent());
+    const auto order = view.order();
+    view.setMode(Mode::engineer);
+    EXPECT_EQ(view.panels(), (Panels{false, true})) << "each mode keeps its own";
+    view.setOrder(order);
+    EXPECT_EQ(view.mode(), Mode::play);
+    EXPECT_EQ(view.panels(), (Panels{true, true}));
+    for (const char* nonsense : {"", "engineer", "play x 1 77"}) view.setOrder(nonsense);
+    EXPECT_EQ(view.mode(), Mode::play) << "a first start";
 }
 
-TEST(Arrangement, APressOnTheNameOfAPageOpensAndFoldsIt) {
-    Window w;
+TEST_F(ArrangedView, APressOnTheNameOfAPageOpensAndFoldsIt) {
     const auto press = [&](const char* title) {
-        auto* button = dynamic_cast<juce::Button*>(find(w.view.tabs(), title));
-        button->setToggleState(true, juce::dontSendNotification);
-        button->onClick();
+        auto& button = the<juce::Button>(view.tabs(), title);
+        button.setToggleState(true, juce::dontSendNotification);
+        button.onClick();
     };
-    EXPECT_FALSE(w.view.panels().hasDrawer);
-    const int wide = w.view.world().getWidth();
+    EXPECT_FALSE(view.panels().hasDrawer);
+    const int wide = view.world().getWidth();
     press("Output");
-    EXPECT_TRUE(w.view.panels().hasDrawer);
-    EXPECT_TRUE(w.view.tabs().find<OutputTab>()->isVisible());
-    EXPECT_LT(w.view.world().getWidth(), wide);
+    EXPECT_TRUE(view.panels().hasDrawer);
+    EXPECT_TRUE(view.tabs().find<OutputTab>()->isVisible());
+    EXPECT_LT(view.world().getWidth(), wide);
     press("Output");
-    EXPECT_FALSE(w.view.panels().hasDrawer);
-    EXPECT_FALSE(w.view.tabs().find<OutputTab>()->isVisible()) << "a folded page shows and hears nothing";
-    EXPECT_EQ(w.view.world().getWidth(), wide);
+    EXPECT_FALSE(view.panels().hasDrawer);
+    EXPECT_FALSE(view.tabs().find<OutputTab>()->isVisible()) << "a folded page shows and hears nothing";
+    EXPECT_EQ(view.world().getWidth(), wide);
 }
 
-TEST(Arrangement, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
-    Window w;
-    const auto widthOf = [&](const char* title) { return find(w.view, title)->getWidth(); };
-    w.view.setPanels({false, true});
-    w.view.setSize(1280, 720);
+TEST_F(ArrangedView, StripsWidenWithTheirPanelAndScrollWhenTheyAreMany) {
+    const auto widthOf = [&](const char* title) { return the(view, title).getWidth(); };
+    view.setPanels({false, true});
+    view.setSize(1280, 720);
     const int narrow = widthOf("Strip A");
-    auto* attach = find(w.view, "Attach an actuator");
-    EXPECT_TRUE(find(w.view, "Mixer")
+    auto* attach = find(view, "Attach an actuator");
+    EXPECT_TRUE(find(view, "Mixer")
                     ->getLocalBounds()
-                    .contains(find(w.view, "Mixer")->getLocalArea(attach, attach->getLocalBounds())))
+                    .contains(the(view, "Mixer").getLocalArea(attach, attach->getLocalBounds())))
         << "the next place is in sight";
-    w.view.setSize(3840, 2160);
+    view.setSize(3840, 2160);
     EXPECT_EQ(widthOf("Strip A"), StripView::mostWidth);
     EXPECT_GE(narrow, StripView::width);
     EXPECT_LT(narrow, StripView::mostWidth);
     EXPECT_TRUE(attach->isVisible());
-    w.view.setSize(1024, 700);
+    view.setSize(1024, 700);
     EXPECT_GE(widthOf("Mute A"), 24) << "for a pointer";
-    EXPECT_GE(find(w.view, "Gain of A")->getHeight(), 100 + 16) << "the throw, and half a cap at each end";
-    w.attach(6);
-    auto* last = find(w.view, "Strip F");
-    const auto* row = last->findParentComponentOfClass<juce::Viewport>();
-    EXPECT_EQ(row->getViewWidth() % (last->getX() / 5), 0) << "whole ones";
-    w.attach(64);
+    EXPECT_GE(the(view, "Gain of A").getHeight(), 100 + 16) << "the throw, and half a cap at each end";
+    attachUpTo(6);
+    auto& last = the(view, "Strip F");
+    const auto* row = last.findParentComponentOfClass<juce::Viewport>();
+    EXPECT_EQ(row->getViewWidth() % (last.getX() / 5), 0) << "whole ones";
+    attachUpTo(64);
     EXPECT_EQ(widthOf("Strip A"), StripView::width) << "64 scroll";
     EXPECT_FALSE(attach->isVisible()) << "there is no 65th";
 }
 
-TEST(Arrangement, ADividerIsDraggedMovedByKeysAndMadeAutomatic) {
-    Window w;
-    w.view.setSize(1440, 900);
-    w.view.setPanels({true, true});
-    auto* divider = dynamic_cast<Divider*>(find(w.view, "Divider of world and tabs"));
-    auto* tabs = find(w.view, "Tabs");
+TEST_F(ArrangedView, ADividerIsDraggedMovedByKeysAndMadeAutomatic) {
+    view.setSize(1440, 900);
+    view.setPanels({true, true});
+    auto* divider = dynamic_cast<Divider*>(find(view, "Divider of world and tabs"));
+    auto& tabs = the(view, "Tabs");
     ASSERT_NE(divider, nullptr);
-    const int before = tabs->getWidth();
+    const int before = tabs.getWidth();
     divider->onMove(-50);
-    EXPECT_NEAR(tabs->getWidth(), before + 50, 1);
-    const int dragged = tabs->getWidth();
+    EXPECT_NEAR(tabs.getWidth(), before + 50, 1);
+    const int dragged = tabs.getWidth();
     EXPECT_TRUE(divider->keyPressed(juce::KeyPress{juce::KeyPress::rightKey}));
-    EXPECT_NEAR(tabs->getWidth(), dragged - 16, 1);
+    EXPECT_NEAR(tabs.getWidth(), dragged - 16, 1);
     EXPECT_FALSE(divider->keyPressed(juce::KeyPress{juce::KeyPress::upKey}));
-    const auto kept = w.view.dividers();
+    const auto kept = view.dividers();
     EXPECT_GT(kept.side, 0.0);
     divider->mouseDoubleClick(mouseAt(*divider, {4.0f, 4.0f}));
-    EXPECT_EQ(tabs->getWidth(), before);
-    w.view.setDividers(kept);
-    EXPECT_NEAR(tabs->getWidth(), dragged - 16, 1);
-    auto* lower = dynamic_cast<Divider*>(find(w.view, "Divider of upper and lower panels"));
-    const int high = find(w.view, "Scope")->getHeight();
-    lower->onMove(-40);
-    EXPECT_NEAR(find(w.view, "Scope")->getHeight(), high + 40, 1);
-    EXPECT_TRUE(lower->keyPressed(juce::KeyPress{juce::KeyPress::downKey}));
-    EXPECT_NEAR(find(w.view, "Scope")->getHeight(), high + 24, 1);
-    auto* between = dynamic_cast<Divider*>(find(w.view, "Divider of scope and strips"));
-    const int wide = find(w.view, "Mixer")->getWidth();
-    between->onMove(30);
-    EXPECT_NEAR(find(w.view, "Mixer")->getWidth(), wide - 30, 1);
+    EXPECT_EQ(tabs.getWidth(), before);
+    view.setDividers(kept);
+    EXPECT_NEAR(tabs.getWidth(), dragged - 16, 1);
+    auto& lower = the<Divider>(view, "Divider of upper and lower panels");
+    const int high = the(view, "Scope").getHeight();
+    lower.onMove(-40);
+    EXPECT_NEAR(the(view, "Scope").getHeight(), high + 40, 1);
+    EXPECT_TRUE(lower.keyPressed(juce::KeyPress{juce::KeyPress::downKey}));
+    EXPECT_NEAR(the(view, "Scope").getHeight(), high + 24, 1);
+    auto& between = the<Divider>(view, "Divider of scope and strips");
+    const int wide = the(view, "Mixer").getWidth();
+    between.onMove(30);
+    EXPECT_NEAR(the(view, "Mixer").getWidth(), wide - 30, 1);
 }
 
-TEST(Arrangement, ANarrowBarHasTwoLinesAndNothingOfItIsCut) {
-    Window w;
+TEST_F(ArrangedView, ANarrowBarHasTwoLinesAndNothingOfItIsCut) {
     for (const auto& [width, height] : sizes) {
-        w.view.setSize(width, height);
-        auto* bar = find(w.view, "Transport and device");
+        view.setSize(width, height);
+        auto* bar = find(view, "Transport and device");
         EXPECT_EQ(bar->getHeight() > TopBar::lineHeight, width < 1260) << width;
         std::vector<juce::Rectangle<int>> places;
         for (auto* child : bar->getChildren()) {
@@ -287,104 +278,98 @@ TEST(Arrangement, ANarrowBarHasTwoLinesAndNothingOfItIsCut) {
                     << child->getTitle() << " at " << width;
             places.push_back(child->getBounds());
         }
-        EXPECT_GE(find(*bar, "Device state")->getWidth(), 200) << width;
+        EXPECT_GE(the(*bar, "Device state").getWidth(), 200) << width;
     }
 }
 
-TEST(Arrangement, TheToolsKeepTheirSizeInALowWindow) {
-    Window w;
+TEST_F(ArrangedView, TheToolsKeepTheirSizeInALowWindow) {
     for (const auto& [width, height] : sizes) {
-        w.view.setSize(width, height);
-        auto* tools = find(w.view, "Tools");
-        for (auto* tool : tools->getChildren()) {
+        view.setSize(width, height);
+        auto& tools = the(view, "Tools");
+        for (auto* tool : tools.getChildren()) {
             EXPECT_GE(tool->getHeight(), 26) << tool->getTitle() << " at " << height;
-            EXPECT_TRUE(tools->getLocalBounds().contains(tool->getBounds()))
+            EXPECT_TRUE(tools.getLocalBounds().contains(tool->getBounds()))
                 << tool->getTitle() << " at " << height;
         }
         std::map<int, int> columns, rows;
-        for (auto* tool : tools->getChildren()) ++columns[tool->getX()], ++rows[tool->getY()];
+        for (auto* tool : tools.getChildren()) ++columns[tool->getX()], ++rows[tool->getY()];
         for (const auto& [y, inLine] : rows)
             EXPECT_EQ(static_cast<std::size_t>(inLine), columns.size()) << y << " at " << height;
         for (int j = 0; j < 4; ++j) {
-            auto& world = w.view.world().view();
-            const auto badge = w.view.world().getLocalPoint(&world, world.placeOfEnchanter(j)).toInt();
-            EXPECT_FALSE(tools->getBounds().expanded(12).contains(badge)) << j << " at " << width;
-            EXPECT_FALSE(w.view.world().bannerArea().expanded(0, 12).contains(badge)) << j << " at " << width;
+            auto& world = view.world().view();
+            const auto badge = view.world().getLocalPoint(&world, world.placeOfEnchanter(j)).toInt();
+            EXPECT_FALSE(tools.getBounds().expanded(12).contains(badge)) << j << " at " << width;
+            EXPECT_FALSE(view.world().bannerArea().expanded(0, 12).contains(badge)) << j << " at " << width;
         }
     }
 }
 
-TEST(Arrangement, AMessageLiesOverTheWorldAndMovesNothing) {
-    Window w;
-    w.view.setSize(1440, 900);
-    const auto before = w.view.world().getBounds();
-    const auto place = w.view.world().view().placeOfEnchanter(0);
-    w.model.report("a fault");
-    w.model.dispatchPendingMessages();
-    auto* banner = find(w.view, "Trouble");
+TEST_F(ArrangedView, AMessageLiesOverTheWorldAndMovesNothing) {
+    view.setSize(1440, 900);
+    const auto before = view.world().getBounds();
+    const auto place = view.world().view().placeOfEnchanter(0);
+    model.report("a fault");
+    model.dispatchPendingMessages();
+    auto* banner = find(view, "Trouble");
     ASSERT_TRUE(banner->isVisible());
-    EXPECT_EQ(w.view.world().getBounds(), before);
-    EXPECT_EQ(w.view.world().view().placeOfEnchanter(0), place);
+    EXPECT_EQ(view.world().getBounds(), before);
+    EXPECT_EQ(view.world().view().placeOfEnchanter(0), place);
     EXPECT_TRUE(before.contains(banner->getBounds()));
-    EXPECT_GT(w.view.getIndexOfChildComponent(banner), w.view.getIndexOfChildComponent(&w.view.world()))
+    EXPECT_GT(view.getIndexOfChildComponent(banner), view.getIndexOfChildComponent(&view.world()))
         << "over it";
     EXPECT_TRUE(banner->findColour(juce::Label::backgroundColourId).isOpaque());
 }
 
-TEST(Arrangement, AShowIsTheWorldAndTheButtonThatSilences) {
-    Window w;
-    w.view.setSize(1440, 900);
-    w.view.setShow(true);
-    EXPECT_EQ(w.view.world().getBounds(), w.view.getLocalBounds());
-    auto* silence = find(w.view, "Silence");
-    EXPECT_TRUE(silence->isVisible());
-    EXPECT_GE(silence->getWidth(), 120);
+TEST_F(ArrangedView, AShowIsTheWorldAndTheButtonThatSilences) {
+    view.setSize(1440, 900);
+    view.setShow(true);
+    EXPECT_EQ(view.world().getBounds(), view.getLocalBounds());
+    auto& silence = the(view, "Silence");
+    EXPECT_TRUE(silence.isVisible());
+    EXPECT_GE(silence.getWidth(), 120);
     for (const char* title : {"Tabs", "Scope", "Mixer", "Tools", "Record", "Drag strength"})
-        EXPECT_FALSE(find(w.view, title)->isVisible()) << title;
-    w.view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
-    EXPECT_TRUE(w.model.isSilent());
-    w.view.setShow(false);
+        EXPECT_FALSE(the(view, title).isVisible()) << title;
+    view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    EXPECT_TRUE(model.isSilent());
+    view.setShow(false);
     for (const char* title : {"Tabs", "Scope", "Mixer", "Tools", "Record", "Drag strength"})
-        EXPECT_TRUE(find(w.view, title)->isVisible()) << title;
-    EXPECT_LT(w.view.world().getWidth(), w.view.getWidth());
+        EXPECT_TRUE(the(view, title).isVisible()) << title;
+    EXPECT_LT(view.world().getWidth(), view.getWidth());
 }
 
-TEST(Arrangement, APageWithoutRoomScrolls) {
-    Window w;
-    w.view.setSize(1280, 720);
-    w.view.setPanels({true, true});
-    w.view.tabs().choose("Output");
-    w.view.refresh(); // what it says takes room
-    auto* page = w.view.tabs().find<OutputTab>();
+TEST_F(ArrangedView, APageWithoutRoomScrolls) {
+    view.setSize(1280, 720);
+    view.setPanels({true, true});
+    view.tabs().choose("Output");
+    view.refresh(); // what it says takes room
+    auto* page = view.tabs().find<OutputTab>();
     EXPECT_GE(page->getHeight(), page->minHeight(page->getWidth()));
     auto* viewport = page->findParentComponentOfClass<juce::Viewport>();
     ASSERT_NE(viewport, nullptr);
     EXPECT_LT(viewport->getHeight(), page->getHeight());
     EXPECT_TRUE(viewport->isVerticalScrollBarShown());
-    w.view.setSize(1016, 660); // a display of 1024 x 700 without the window's frame
-    for (const juce::Component* other : {static_cast<juce::Component*>(w.view.tabs().find<StudiesTab>()),
-                                         static_cast<juce::Component*>(w.view.tabs().find<MaterialsTab>())})
+    view.setSize(1016, 660); // a display of 1024 x 700 without the window's frame
+    for (const juce::Component* other : {static_cast<juce::Component*>(view.tabs().find<StudiesTab>()),
+                                         static_cast<juce::Component*>(view.tabs().find<MaterialsTab>())})
         EXPECT_LE(other->getHeight(), other->findParentComponentOfClass<juce::Viewport>()->getHeight());
-    w.view.setSize(3840, 2160);
+    view.setSize(3840, 2160);
     EXPECT_EQ(viewport->getHeight(), page->getHeight());
 }
 
-TEST(Arrangement, TheListOfMaterialsShowsWholeRows) {
-    Window w;
-    w.view.setSize(1016, 660);
-    w.view.tabs().choose("Materials");
-    auto* list = dynamic_cast<juce::ListBox*>(find(w.view, "List of materials"));
-    EXPECT_GE(list->getHeight(), 5 * list->getRowHeight());
-    EXPECT_EQ(list->getHeight() % list->getRowHeight(), 0);
+TEST_F(ArrangedView, TheListOfMaterialsShowsWholeRows) {
+    view.setSize(1016, 660);
+    view.tabs().choose("Materials");
+    auto& list = the<juce::ListBox>(view, "List of materials");
+    EXPECT_GE(list.getHeight(), 5 * list.getRowHeight());
+    EXPECT_EQ(list.getHeight() % list.getRowHeight(), 0);
 }
 
-TEST(Arrangement, TheListOfActuatorsShowsWholeRows) {
-    Window w;
-    w.attach(12);
+TEST_F(ArrangedView, TheListOfActuatorsShowsWholeRows) {
+    attachUpTo(12);
     for (const auto& [width, height] : sizes) {
-        w.view.setSize(width, height);
-        w.view.tabs().choose("Actuators");
-        auto* list = dynamic_cast<juce::ListBox*>(find(w.view, "List of actuators"));
+        view.setSize(width, height);
+        view.tabs().choose("Actuators");
+        auto* list = dynamic_cast<juce::ListBox*>(find(view, "List of actuators"));
         const auto* viewport = list->findParentComponentOfClass<juce::Viewport>();
         const int seen = viewport->getLocalBounds()
                              .getIntersection(viewport->getLocalArea(list, list->getLocalBounds()))
@@ -395,30 +380,28 @@ TEST(Arrangement, TheListOfActuatorsShowsWholeRows) {
     }
 }
 
-TEST(Arrangement, TheStrongestHitIsToldInLinesThatFit) {
-    Window w;
-    auto* sentence = dynamic_cast<juce::Label*>(find(w.view, "Strongest hit"));
+TEST_F(ArrangedView, TheStrongestHitIsToldInLinesThatFit) {
+    auto& sentence = the<juce::Label>(view, "Strongest hit");
     for (const auto& [width, height] : sizes) {
-        w.view.setSize(width, height);
-        ASSERT_TRUE(runUntil([&] { return w.view.refresh(), sentence->getText().contains(" g "); }, 10.0));
-        const auto lines = juce::StringArray::fromLines(sentence->getText());
+        view.setSize(width, height);
+        ASSERT_TRUE(runUntil([&] { return view.refresh(), sentence.getText().contains(" g "); }, 10.0));
+        const auto lines = juce::StringArray::fromLines(sentence.getText());
         EXPECT_LE(lines.size(), 2);
         for (const auto& line : lines) {
-            EXPECT_LE(text::pixels(sentence->getFont(), line), sentence->getWidth() - 10)
+            EXPECT_LE(text::pixels(sentence.getFont(), line), sentence.getWidth() - 10)
                 << line << " at " << width;
             EXPECT_FALSE(line.trimStart().startsWith("/")) << line;
         }
     }
 }
 
-TEST(Arrangement, TheScopeSaysHowManyItShowsWhereThereIsLittleRoom) {
-    Window w;
-    w.attach(64);
+TEST_F(ArrangedView, TheScopeSaysHowManyItShowsWhereThereIsLittleRoom) {
+    attachUpTo(64);
     for (const auto& [width, height] : sizes) {
-        w.view.setSize(width, height);
-        auto* scope = w.view.scope().find<ScopeView>();
-        auto* spectra = find(w.view, "Spectra");
-        const int lanes = (spectra->isVisible() ? spectra->getX() - gap : scope->getWidth()) - 26;
+        view.setSize(width, height);
+        auto* scope = view.scope().find<ScopeView>();
+        auto& spectra = the(view, "Spectra");
+        const int lanes = (spectra.isVisible() ? spectra.getX() - gap : scope->getWidth()) - 26;
         EXPECT_GE(lanes, text::pixels(text::font(text::small), "the first 8 of 64")) << width;
     }
 }

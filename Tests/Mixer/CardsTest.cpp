@@ -21,10 +21,10 @@ struct Asked {
         folder("there.json").replaceWithText("{}");
         folder("picture.png").replaceWithText("x");
         card = std::make_unique<FileCard>(FileCard::Choice{"A file", ".json", folder.folder, isSaving, name});
-        card->onFile = [this](const juce::File& file) { taken = file; };
+        card->onFiles = [this](const juce::Array<juce::File>& files) { taken = files[0]; };
         card->onCancel = [this] { ++cancelled; };
     }
-    juce::ListBox& list() { return dynamic_cast<juce::ListBox&>(*find(*card, "Files of the folder")); }
+    juce::ListBox& list() { return the<juce::ListBox>(*card, "Files of the folder"); }
 };
 
 TEST(FileCard, ATypedNameStaysInAnotherFolderAndGetsItsEnding) {
@@ -60,7 +60,7 @@ TEST(FileCard, AFileIsReplacedAtTheSecondPressOnly) {
     asked.card->setName("there"); // typed again: asked again
     asked.card->setName("other");
     asked.card->setName("there");
-    dynamic_cast<juce::TextEditor&>(*find(*asked.card, "Name of the file")).onTextChange();
+    the<juce::TextEditor>(*asked.card, "Name of the file").onTextChange();
     asked.card->accept();
     EXPECT_EQ(asked.taken, juce::File{});
     asked.card->accept();

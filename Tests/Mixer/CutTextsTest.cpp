@@ -121,7 +121,7 @@ TEST(CutTexts, NamesAreBrokenNowhereAndALongFolderShowsItsEnd) {
     auto& studies = *texts.view.tabs().find<StudiesTab>();
     studies.chooseProtocol("patterns");
     studies.setFolder(juce::File{"/home/" + juce::String::repeatedString("a folder of many letters/", 4)});
-    const auto& folder = dynamic_cast<juce::TextEditor&>(*find(texts.view, "Folder of the trial files"));
+    const auto& folder = the<juce::TextEditor>(texts.view, "Folder of the trial files");
     EXPECT_EQ(folder.getCaretPosition(), folder.getText().length());
     for (int width = MixerView::minWidth; width < 1500; width += 20) {
         texts.view.setSize(width, 900);
@@ -140,8 +140,8 @@ TEST(CutTexts, ASilencedMixerHasNothingThatRingsAndThePanelOfABodyHasWholeLines)
         auto& panel = *find(texts.view, "Chosen bodies");
         EXPECT_TRUE(readTexts(panel).words.contains("hapticsource"));
         const auto& materials = texts.model.world().drawing().drawn().materials;
-        EXPECT_EQ(find(panel, "New material for what is chosen")->getY(),
-                  find(panel, "Made of " + utf8(materials.back().name))->getY())
+        EXPECT_EQ(the(panel, "New material for what is chosen").getY(),
+                  the(panel, "Made of " + utf8(materials.back().name)).getY())
             << materials.size();
         texts.model.change("More", [&](Mix& mix) {
             Scene scene = texts.model.world().drawing().drawn();
@@ -282,10 +282,9 @@ TEST_P(Contrasts, OfStatesAndTools) {
 }
 
 TEST_P(Contrasts, OfTheStrongestHit) {
-    const auto* sentence = dynamic_cast<juce::Label*>(find(view, "Strongest hit"));
-    ASSERT_NE(sentence, nullptr);
+    const auto& sentence = the<juce::Label>(view, "Strongest hit");
     model.setSlowness(1);
-    ASSERT_TRUE(runUntil([&] { return view.refresh(), sentence->getText().contains(" g "); }, 10.0));
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), sentence.getText().contains(" g "); }, 10.0));
     model.setSlowness(0);
     expectReadable("a hit");
 }

@@ -21,22 +21,8 @@ using juce::KeyPress;
 
 struct Board : NewSceneRig {
     juce::MouseEvent mouse(Vector at, Vector pressedAt) {
-        const auto now = juce::Time::getCurrentTime();
-        return {juce::Desktop::getInstance().getMainMouseSource(),
-                world.placeOfMetres(at),
-                juce::ModifierKeys::leftButtonModifier,
-                0.0f,
-                0.0f,
-                0.0f,
-                0.0f,
-                0.0f,
-                &pane,
-                &pane,
-                now,
-                world.placeOfMetres(pressedAt),
-                now,
-                1,
-                at != pressedAt};
+        return mouseAt(pane, world.placeOfMetres(at), juce::ModifierKeys::leftButtonModifier,
+                       world.placeOfMetres(pressedAt));
     }
     void drag(Vector from, Vector to) {
         pane.mouseDown(mouse(from, from));
@@ -45,89 +31,86 @@ struct Board : NewSceneRig {
         settle();
     }
     void key(juce::juce_wchar c) {
-        view.world().keyPressed(KeyPress{static_cast<int>(juce::CharacterFunctions::toUpperCase(c)), {}, c}),
-            settle();
+        key(KeyPress{static_cast<int>(juce::CharacterFunctions::toUpperCase(c)), {}, c});
     }
     void key(const KeyPress& press) { view.world().keyPressed(press), settle(); }
+    /// The next ball of a world: "ball 1", where there is none.
+    void drawBall() {
+        key('b');
+        drag(share(0.5, 0.5), share(0.55, 0.5));
+    }
 };
 
-TEST(Drawing, BallsBoxesAndWallsAreDrawnAndUndone) {
-    Board board;
-    const auto before = board.drawn().bodies.size();
-    board.key('b');
-    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
-    board.key('x');
-    board.drag(board.share(0.2, 0.5), board.share(0.3, 0.6));
-    board.key('w');
-    board.drag(board.share(0.1, 0.3), board.share(0.4, 0.2));
-    ASSERT_EQ(board.drawn().bodies.size(), before + 3);
-    EXPECT_EQ(board.model.world().drawing().find("ball 1")->type, BodyType::dynamicBody);
-    EXPECT_TRUE(board.model.world().drawing().find("ball 1")->fixtures[0].isCamera)
-        << "the first that moves is felt";
-    EXPECT_EQ(board.model.world().drawing().find("wall 1")->type, BodyType::staticBody);
-    for (int k = 0; k < 3; ++k) board.model.undoManager().undo();
-    EXPECT_EQ(board.drawn().bodies.size(), before);
-    for (int k = 0; k < 3; ++k) board.model.undoManager().redo();
-    EXPECT_EQ(board.drawn().bodies.size(), before + 3);
-    EXPECT_EQ(sceneAsLeft(board.model.saved().log.takes.back()).bodies.size(), before + 3)
+struct Drawing : testing::Test, Board {};
+
+TEST_F(Drawing, BallsBoxesAndWallsAreDrawnAndUndone) {
+    const auto before = drawn().bodies.size();
+    drawBall();
+    key('x');
+    drag(share(0.2, 0.5), share(0.3, 0.6));
+    key('w');
+    drag(share(0.1, 0.3), share(0.4, 0.2));
+    ASSERT_EQ(drawn().bodies.size(), before + 3);
+    EXPECT_EQ(body("ball 1")->type, BodyType::dynamicBody);
+    EXPECT_TRUE(body("ball 1")->fixtures[0].isCamera) << "the first that moves is felt";
+    EXPECT_EQ(body("wall 1")->type, BodyType::staticBody);
+    for (int k = 0; k < 3; ++k) undo();
+    EXPECT_EQ(drawn().bodies.size(), before);
+    for (int k = 0; k < 3; ++k) model.undoManager().redo();
+    EXPECT_EQ(drawn().bodies.size(), before + 3);
+    EXPECT_EQ(sceneAsLeft(model.saved().log.takes.back()).bodies.size(), before + 3)
         << "in the session that is saved";
 }
 
 TEST(Drawing, TheFirstBallInAnySceneIsFelt) {
     for (const char* scene : {"shake-the-box", "drop", "marbles"}) {
         Board board;
-        board.model.change(
-            "Scene", [&](Mix& m) { m.scene = std::make_shared<const Scene>(*findBuiltInScene(scene)); });
+        setScene(board.model, *findBuiltInScene(scene));
         board.settle();
         board.pane.addAt(DrawTool::ball, board.share(0.5, 0.8));
         const auto& ball = board.drawn().bodies.back();
         ASSERT_EQ(ball.name, "ball 1") << scene;
         EXPECT_TRUE(isSource(ball)) << scene;
-        EXPECT_GT(board.drawn().materials[static_cast<std::size_t>(ball.fixtures[0].material)].frequencyHz,
-                  0.0)
-            << scene;
+        EXPECT_GT(nth(board.drawn().materials, ball.fixtures[0].material).frequencyHz, 0.0) << scene;
     }
 }
 
-TEST(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
-    Board board;
-    board.key('b');
-    board.key(KeyPress{KeyPress::returnKey});
-    ASSERT_EQ(board.pane.chosen(), (std::vector<std::string>{"ball 1"}));
-    const auto ball = [&] { return *board.model.world().drawing().find("ball 1"); };
+TEST_F(Drawing, ByKeysAloneABallIsPutMovedSizedCopiedAndErased) {
+    key('b');
+    key(KeyPress{KeyPress::returnKey});
+    ASSERT_EQ(pane.chosen(), (std::vector<std::string>{"ball 1"}));
+    const auto ball = [&] { return *body("ball 1"); };
     const auto start = ball();
-    board.key(KeyPress{KeyPress::rightKey});
+    key(KeyPress{KeyPress::rightKey});
     EXPECT_GT(ball().positionMetres.x, start.positionMetres.x);
-    board.key('+');
+    key('+');
     EXPECT_GT(std::get<CircleShape>(ball().fixtures[0].shape).radiusMetres,
               std::get<CircleShape>(start.fixtures[0].shape).radiusMetres);
-    board.key(KeyPress{'d', juce::ModifierKeys::commandModifier, 0});
-    EXPECT_EQ(board.pane.chosen(), (std::vector<std::string>{"ball 2"}));
-    board.key(KeyPress{KeyPress::deleteKey});
-    EXPECT_EQ(board.model.world().drawing().find("ball 2"), nullptr);
-    EXPECT_NE(board.model.world().drawing().find("ball 1"), nullptr);
-    board.pane.use(DrawTool::hand); // with any tool
-    board.key(KeyPress{'a', juce::ModifierKeys::commandModifier, 0});
-    board.key(KeyPress{KeyPress::deleteKey});
-    EXPECT_TRUE(board.drawn().bodies.empty());
+    key(KeyPress{'d', juce::ModifierKeys::commandModifier, 0});
+    EXPECT_EQ(pane.chosen(), (std::vector<std::string>{"ball 2"}));
+    key(KeyPress{KeyPress::deleteKey});
+    EXPECT_EQ(body("ball 2"), nullptr);
+    EXPECT_NE(body("ball 1"), nullptr);
+    pane.use(DrawTool::hand); // with any tool
+    key(KeyPress{'a', juce::ModifierKeys::commandModifier, 0});
+    key(KeyPress{KeyPress::deleteKey});
+    EXPECT_TRUE(drawn().bodies.empty());
 }
 
-TEST(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
-    Board board;
-    const auto before = board.drawn().bodies.size();
-    board.pane.setRainCount(10);
-    board.key('n');
-    board.drag(board.share(0.2, 0.5), board.share(0.4, 0.7));
-    ASSERT_EQ(board.drawn().bodies.size(), before + 10);
-    for (int k = 1; k <= 10; ++k)
-        EXPECT_NE(board.model.world().drawing().find("rain " + std::to_string(k)), nullptr) << k;
-    board.pane.eraseAll({"rain 1"});
-    board.key('n');
-    board.drag(board.share(0.5, 0.5), board.share(0.7, 0.7));
-    EXPECT_EQ(board.drawn().bodies.size(), before + 19) << board.model.trouble();
-    EXPECT_NE(board.model.world().drawing().find("rain 20"), nullptr);
-    board.model.undoManager().undo();
-    EXPECT_EQ(board.drawn().bodies.size(), before + 9) << "one rain, one step";
+TEST_F(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
+    const auto before = drawn().bodies.size();
+    pane.setRainCount(10);
+    key('n');
+    drag(share(0.2, 0.5), share(0.4, 0.7));
+    ASSERT_EQ(drawn().bodies.size(), before + 10);
+    for (int k = 1; k <= 10; ++k) EXPECT_NE(body("rain " + std::to_string(k)), nullptr) << k;
+    pane.eraseAll({"rain 1"});
+    key('n');
+    drag(share(0.5, 0.5), share(0.7, 0.7));
+    EXPECT_EQ(drawn().bodies.size(), before + 19) << model.trouble();
+    EXPECT_NE(body("rain 20"), nullptr);
+    undo();
+    EXPECT_EQ(drawn().bodies.size(), before + 9) << "one rain, one step";
 }
 
 TEST(Drawing, AConveyorCarriesBallsOfAnySizeTheWayOfItsDragAndIsOneStep) {
@@ -150,7 +133,7 @@ TEST(Drawing, AConveyorCarriesBallsOfAnySizeTheWayOfItsDragAndIsOneStep) {
             const double way = (pose.xMetres - at.x) * (to > from ? 1.0 : -1.0);
             EXPECT_GT(way, 0.2 * height) << size << ' ' << to;
             EXPECT_GT(pose.yMetres, at.y) << "and stays on it";
-            for (int k = 0; k < 2; ++k) board.model.undoManager().undo();
+            for (int k = 0; k < 2; ++k) board.undo();
             EXPECT_EQ(board.drawn().bodies.size(), before);
         }
 }
@@ -176,147 +159,135 @@ TEST(Drawing, AConveyorCarriesARainOfSmallBalls) {
     }
 }
 
-TEST(Drawing, BesideTheFieldNothingIsDrawnAndAtItsEdgeItIs) {
-    Board board;
-    const auto before = board.drawn().bodies.size();
-    const double edge = 5.0 / static_cast<double>(board.world.pixelsPerMetre());
+TEST_F(Drawing, BesideTheFieldNothingIsDrawnAndAtItsEdgeItIs) {
+    const auto before = drawn().bodies.size();
+    const double edge = 5.0 / static_cast<double>(world.pixelsPerMetre());
     for (const char tool : {'b', 'x', 'p', 'l', 'w', 'n', 'c'}) {
-        board.key(static_cast<juce::juce_wchar>(tool));
+        key(static_cast<juce::juce_wchar>(tool));
         for (const auto& [x, y] : {std::pair{-0.1, 0.5}, {1.1, 0.5}, {0.5, 1.1}})
-            board.drag(board.share(x, y), board.share(x, y));
+            drag(share(x, y), share(x, y));
     }
-    EXPECT_EQ(board.drawn().bodies.size(), before);
-    board.key('w');
-    board.drag({-edge, board.share(0.0, 0.5).y}, board.share(0.2, 0.5));
-    EXPECT_EQ(board.drawn().bodies.size(), before + 1) << "a wall from the edge";
+    EXPECT_EQ(drawn().bodies.size(), before);
+    key('w');
+    drag({-edge, share(0.0, 0.5).y}, share(0.2, 0.5));
+    EXPECT_EQ(drawn().bodies.size(), before + 1) << "a wall from the edge";
 }
 
-TEST(Drawing, TheMaterialsStayWhereTheyAreWhateverIsChosen) {
-    Board board;
+TEST_F(Drawing, TheMaterialsStayWhereTheyAreWhateverIsChosen) {
     for (const int wide : {1440, 1000}) {
-        board.view.setSize(wide, 800);
+        view.setSize(wide, 800);
         std::vector<juce::Rectangle<int>> first;
         for (const DrawTool tool : {DrawTool::ball, DrawTool::wall, DrawTool::rain, DrawTool::choose})
-            for (int m = 0; m < std::ssize(board.drawn().materials); ++m) {
-                board.pane.use(tool);
-                board.pane.setMaterial(m);
+            for (int m = 0; m < std::ssize(drawn().materials); ++m) {
+                pane.use(tool);
+                pane.setMaterial(m);
                 std::vector<juce::Rectangle<int>> places;
-                for (const auto& material : board.drawn().materials)
-                    places.push_back(find(board.view, "Material " + utf8(material.name))->getBounds());
+                for (const auto& material : drawn().materials)
+                    places.push_back(the(view, "Material " + utf8(material.name)).getBounds());
                 if (first.empty()) first = places;
                 EXPECT_EQ(places, first) << wide << " tool " << static_cast<int>(tool) << " material " << m;
             }
     }
 }
 
-TEST(Drawing, AMaterialThatDoesNotVibrateTakesTheSourceAndTheNextGivesItBack) {
-    Board board;
-    board.model.change("Silent", [](Mix& mix) {
+TEST_F(Drawing, AMaterialThatDoesNotVibrateTakesTheSourceAndTheNextGivesItBack) {
+    model.change("Silent", [](Mix& mix) {
         Scene scene = *mix.scene;
         scene.materials.push_back(Material{scene.materials.front()});
         scene.materials.back().name = "wool", scene.materials.back().frequencyHz = 0.0;
         mix.scene = std::make_shared<const Scene>(scene);
     });
-    board.settle();
+    settle();
     for (const DrawTool tool : {DrawTool::ball, DrawTool::wall}) {
-        board.pane.use(tool);
-        board.pane.addAt(tool, board.share(0.5, 0.6));
-        const auto name = board.drawn().bodies.back().name;
-        const auto source = [&] { return isSource(*board.model.world().drawing().find(name)); };
+        pane.use(tool);
+        pane.addAt(tool, share(0.5, 0.6));
+        const auto name = drawn().bodies.back().name;
+        const auto source = [&] { return isSource(*body(name)); };
         const bool before = source();
-        const int own = board.drawn().bodies.back().fixtures[0].material;
-        board.pane.choose({name});
-        board.pane.giveMaterial(static_cast<int>(board.drawn().materials.size()) - 1);
+        const int own = drawn().bodies.back().fixtures[0].material;
+        pane.choose({name});
+        pane.giveMaterial(static_cast<int>(drawn().materials.size()) - 1);
         EXPECT_FALSE(source()) << name;
-        board.pane.giveMaterial(own);
+        pane.giveMaterial(own);
         EXPECT_EQ(source(), before) << name;
     }
 }
 
-TEST(Drawing, UndoOfAnEraseThatEndsAScriptHasBodiesWhereTheyWere) {
-    Board board;
-    board.model.change("Scene", [](Mix& mix) {
-        mix.scene = std::make_shared<const Scene>(*findBuiltInScene("shake-the-box"));
-    });
-    board.settle();
-    board.pane.addAt(DrawTool::ball, board.share(0.5, 0.7));
-    board.model.setSlowness(1);
-    const auto now = [&] { return board.model.world().posesNow()("ball 1"); };
-    const double drawn = board.share(0.5, 0.7).y;
-    ASSERT_TRUE(runUntil([&] { return board.view.refresh(), now() && now()->yMetres < 0.9 * drawn; }));
-    board.model.setSlowness(0);
-    board.settle();
+TEST_F(Drawing, UndoOfAnEraseThatEndsAScriptHasBodiesWhereTheyWere) {
+    setScene(model, *findBuiltInScene("shake-the-box"));
+    settle();
+    pane.addAt(DrawTool::ball, share(0.5, 0.7));
+    model.setSlowness(1);
+    const auto now = [&] { return model.world().posesNow()("ball 1"); };
+    const double drawn = share(0.5, 0.7).y;
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), now() && now()->yMetres < 0.9 * drawn; }));
+    model.setSlowness(0);
+    settle();
     const double there = now()->yMetres;
-    board.pane.chooseAll();
-    board.pane.eraseAll(board.pane.chosen());
-    board.settle();
-    ASSERT_EQ(board.model.world().drawing().find("ball 1"), nullptr);
-    board.model.undoManager().undo();
-    board.settle();
-    ASSERT_NE(board.model.world().drawing().find("ball 1"), nullptr);
-    EXPECT_NEAR(board.model.world().drawing().find("ball 1")->positionMetres.y, there, 0.02 * drawn);
+    pane.chooseAll();
+    pane.eraseAll(pane.chosen());
+    settle();
+    ASSERT_EQ(body("ball 1"), nullptr);
+    undo();
+    settle();
+    ASSERT_NE(body("ball 1"), nullptr);
+    EXPECT_NEAR(body("ball 1")->positionMetres.y, there, 0.02 * drawn);
 }
 
-TEST(Drawing, AMaterialIsRenamedByADoubleClickAndEditedByItsButton) {
-    Board board;
-    board.key('b');
-    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
-    const auto first = utf8(board.drawn().materials[0].name);
+TEST_F(Drawing, AMaterialIsRenamedByADoubleClickAndEditedByItsButton) {
+    drawBall();
+    const auto first = utf8(drawn().materials[0].name);
     for (const juce::String title : {"Material " + first, juce::String{"Made of mine"}}) {
-        auto* const swatch = find(board.view, title);
+        auto* const swatch = find(view, title);
         ASSERT_TRUE(swatch != nullptr && swatch->isVisible()) << title;
         swatch->mouseDoubleClick(mouseAt(*swatch, {4.0f, 4.0f}));
-        ASSERT_NE(board.view.question(), nullptr) << title;
+        ASSERT_NE(view.question(), nullptr) << title;
         const juce::String name = title.startsWith("Made") ? "ours" : "mine";
-        board.view.question()->setValue("Name", name);
-        board.view.question()->answer("Change");
-        ASSERT_TRUE(runUntil([&] { return board.drawn().materials[0].name == name.toStdString(); }));
-        board.settle();
-        board.pane.choose({board.drawn().bodies.back().name});
-        board.view.refresh();
+        view.question()->setValue("Name", name);
+        view.question()->answer("Change");
+        ASSERT_TRUE(runUntil([&] { return drawn().materials[0].name == name.toStdString(); }));
+        settle();
+        pane.choose({drawn().bodies.back().name});
+        view.refresh();
     }
     for (const char* title : {"Edit the material", "Material of what is chosen"}) {
-        auto* const edit = dynamic_cast<juce::Button*>(find(board.view, title));
+        auto* const edit = dynamic_cast<juce::Button*>(find(view, title));
         ASSERT_TRUE(edit != nullptr && edit->isVisible() && edit->onClick) << title;
     }
-    board.view.world().onMaterial(0, true);
-    EXPECT_TRUE(board.view.tabs().find<MaterialsTab>()->isShowing() ||
-                board.view.tabs().find<MaterialsTab>()->isVisible());
-    EXPECT_NE(board.view.openCard(), nullptr) << "of a recording";
+    view.world().onMaterial(0, true);
+    EXPECT_TRUE(view.tabs().find<MaterialsTab>()->isShowing() ||
+                view.tabs().find<MaterialsTab>()->isVisible());
+    EXPECT_NE(view.openCard(), nullptr) << "of a recording";
 }
 
-TEST(Drawing, ANewMaterialIsMadeBesideTheMaterialsAndForWhatIsChosen) {
-    Board board;
+TEST_F(Drawing, ANewMaterialIsMadeBesideTheMaterialsAndForWhatIsChosen) {
     for (const juce::String plus : {"New material", "New material for what is chosen"}) {
-        board.key('b');
-        board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
-        auto* const button = dynamic_cast<juce::Button*>(find(board.view, plus));
+        drawBall();
+        auto* const button = dynamic_cast<juce::Button*>(find(view, plus));
         ASSERT_TRUE(button != nullptr && button->isVisible()) << plus;
-        const auto before = board.drawn().materials;
+        const auto before = drawn().materials;
         button->onClick();
-        ASSERT_NE(board.view.question(), nullptr);
-        board.view.question()->setValue("Name", "mine, " + plus);
-        board.view.question()->answer("Make it");
-        ASSERT_TRUE(runUntil([&] { return board.drawn().materials.size() == before.size() + 1; }))
-            << board.model.trouble();
-        board.settle();
+        ASSERT_NE(view.question(), nullptr);
+        view.question()->setValue("Name", "mine, " + plus);
+        view.question()->answer("Make it");
+        ASSERT_TRUE(runUntil([&] { return drawn().materials.size() == before.size() + 1; }))
+            << model.trouble();
+        settle();
         const int made = static_cast<int>(before.size());
-        EXPECT_EQ(board.drawn().materials.back().name, ("mine, " + plus).toStdString());
+        EXPECT_EQ(drawn().materials.back().name, ("mine, " + plus).toStdString());
         if (plus == "New material")
-            EXPECT_EQ(board.pane.material(), made);
+            EXPECT_EQ(pane.material(), made);
         else
-            EXPECT_EQ(board.drawn().bodies.back().fixtures[0].material, made);
+            EXPECT_EQ(drawn().bodies.back().fixtures[0].material, made);
     }
 }
 
-TEST(Drawing, AJointInTheAirSaysHowUntilOneHolds) {
-    Board board;
-    board.key('b');
-    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
-    board.pane.joinAt(DrawTool::motor, board.share(0.02, 0.98));
-    EXPECT_EQ(board.model.messages().shown().act.name, "Pause");
-    board.pane.joinAt(DrawTool::motor, board.share(0.5, 0.5));
-    EXPECT_NE(board.model.messages().shown().act.name, "Pause");
+TEST_F(Drawing, AJointInTheAirSaysHowUntilOneHolds) {
+    drawBall();
+    pane.joinAt(DrawTool::motor, share(0.02, 0.98));
+    EXPECT_EQ(model.messages().shown().act.name, "Pause");
+    pane.joinAt(DrawTool::motor, share(0.5, 0.5));
+    EXPECT_NE(model.messages().shown().act.name, "Pause");
 }
 
 TEST(Drawing, ARainOfAClickOrAFlatDragIsWithinTheFieldAndOfASize) {
@@ -340,88 +311,80 @@ TEST(Drawing, ARainOfAClickOrAFlatDragIsWithinTheFieldAndOfASize) {
     }
 }
 
-TEST(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
-    Board board;
-    const auto before = board.drawn().bodies.size();
-    board.pane.setRainCount(10);
-    board.pane.setRainPattern({20, true});
-    board.key('n');
-    board.drag(board.share(0.4, 0.4), board.share(0.6, 0.6));
-    EXPECT_EQ(board.drawn().bodies.size(), before + 1) << "the world stands";
-    const auto* first = board.model.world().drawing().find("rain 1");
+TEST_F(Drawing, ARainComesBallByBallWhileTheWorldRunsAndIsOneStepOfUndo) {
+    const auto before = drawn().bodies.size();
+    pane.setRainCount(10);
+    pane.setRainPattern({20, true});
+    key('n');
+    drag(share(0.4, 0.4), share(0.6, 0.6));
+    EXPECT_EQ(drawn().bodies.size(), before + 1) << "the world stands";
+    const auto* first = body("rain 1");
     ASSERT_NE(first, nullptr);
     EXPECT_GT(first->velocityMetresPerSecond.y, 0.0) << "a fountain";
-    board.model.setSlowness(1);
-    const auto from = board.model.session().world().sceneNs();
-    ASSERT_TRUE(runUntil([&] { return board.view.refresh(), board.drawn().bodies.size() == before + 10; }));
-    const double seconds = 1e-9 * static_cast<double>(board.model.session().world().sceneNs() - from);
+    model.setSlowness(1);
+    const auto from = model.session().world().sceneNs();
+    ASSERT_TRUE(runUntil([&] { return view.refresh(), drawn().bodies.size() == before + 10; }));
+    const double seconds = 1e-9 * static_cast<double>(model.session().world().sceneNs() - from);
     EXPECT_GT(seconds, 0.4) << "20 a second";
     EXPECT_LT(seconds, 1.5);
-    EXPECT_NE(board.model.world().drawing().find("rain 10"), nullptr);
-    board.model.undoManager().undo();
-    EXPECT_EQ(board.drawn().bodies.size(), before);
+    EXPECT_NE(body("rain 10"), nullptr);
+    undo();
+    EXPECT_EQ(drawn().bodies.size(), before);
 }
 
-TEST(Drawing, WhoTakesAnotherToolChoosesNothing) {
-    Board board;
-    board.key('b');
-    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
-    board.pane.use(DrawTool::choose);
-    board.pane.choose({"ball 1"});
-    board.pane.use(DrawTool::choose);
-    EXPECT_EQ(board.pane.chosen(), (std::vector<std::string>{"ball 1"}));
-    board.pane.use(DrawTool::box);
-    EXPECT_TRUE(board.pane.chosen().empty());
-    board.pane.setMaterial(2);
-    EXPECT_NE(board.model.world().drawing().find("ball 1")->fixtures[0].material, 2)
-        << "of the next box, not of what was chosen";
+TEST_F(Drawing, WhoTakesAnotherToolChoosesNothing) {
+    drawBall();
+    pane.use(DrawTool::choose);
+    pane.choose({"ball 1"});
+    pane.use(DrawTool::choose);
+    EXPECT_EQ(pane.chosen(), (std::vector<std::string>{"ball 1"}));
+    pane.use(DrawTool::box);
+    EXPECT_TRUE(pane.chosen().empty());
+    pane.setMaterial(2);
+    EXPECT_NE(body("ball 1")->fixtures[0].material, 2) << "of the next box, not of what was chosen";
 }
 
-TEST(Drawing, ARefusedEditLeavesNoStepAndNoHalf) {
-    Board board;
-    const auto before = board.drawn().bodies.size();
-    const auto steps = board.model.undoManager().getUndoDescriptions().size();
-    BodyDescription ball = board.drawn().bodies.front();
+TEST_F(Drawing, ARefusedEditLeavesNoStepAndNoHalf) {
+    const auto before = drawn().bodies.size();
+    const auto steps = model.undoManager().getUndoDescriptions().size();
+    BodyDescription ball = drawn().bodies.front();
     ball.name = "twice";
-    EXPECT_NE(board.model.world().edit("Two", {SpawnAction{ball, {}}, RemoveAction{"nobody"}}), "");
-    EXPECT_EQ(board.drawn().bodies.size(), before);
-    EXPECT_EQ(board.model.undoManager().getUndoDescriptions().size(), steps);
+    EXPECT_NE(model.world().edit("Two", {SpawnAction{ball, {}}, RemoveAction{"nobody"}}), "");
+    EXPECT_EQ(drawn().bodies.size(), before);
+    EXPECT_EQ(model.undoManager().getUndoDescriptions().size(), steps);
 }
 
-TEST(Drawing, WhatDoesNotVibrateIsNoHapticSourceAndIsToldInWords) {
-    Board board;
-    const auto& materials = board.drawn().materials;
-    board.pane.setMaterial(
+TEST_F(Drawing, WhatDoesNotVibrateIsNoHapticSourceAndIsToldInWords) {
+    const auto& materials = drawn().materials;
+    pane.setMaterial(
         static_cast<int>(std::ranges::find(materials, 0.0, &Material::frequencyHz) - materials.begin()));
-    board.key('b');
-    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
-    auto& source = dynamic_cast<juce::Button&>(*find(board.view, "Haptic source"));
+    drawBall();
+    auto& source = the<juce::Button>(view, "Haptic source");
     source.setToggleState(true, juce::sendNotificationSync);
-    EXPECT_TRUE(board.model.trouble().contains("vibrates")) << board.model.trouble();
+    EXPECT_TRUE(model.trouble().contains("vibrates")) << model.trouble();
     EXPECT_FALSE(source.getToggleState());
 }
 
-TEST(Drawing, AMixedMarkIsGivenToAllThatCanHaveItAndThenTakenFromAll) {
-    Board board;
-    const auto& materials = board.drawn().materials;
+TEST_F(Drawing, AMixedMarkIsGivenToAllThatCanHaveItAndThenTakenFromAll) {
+    const auto& materials = drawn().materials;
     const int dull =
         static_cast<int>(std::ranges::find(materials, 0.0, &Material::frequencyHz) - materials.begin());
-    board.model.change("Mixed", [&](Mix& mix) {
-        Scene scene = board.drawn();
+    model.change("Mixed", [&](Mix& mix) {
+        Scene scene = drawn();
         for (auto& fixture : scene.bodies.front().fixtures) fixture.material = dull;
         setSource(scene, scene.bodies.front(), false);
         mix.scene = std::make_shared<const Scene>(scene);
     });
-    board.settle();
-    board.key('l');
-    board.drag(board.share(0.2, 0.3), board.share(0.4, 0.3));
-    for (const double x : {0.3, 0.6}) board.pane.addAt(DrawTool::ball, board.share(x, 0.6));
-    board.pane.use(DrawTool::choose);
-    board.pane.choose({"ball 1"});
-    board.pane.changeChosen("Dull", [](const Scene& s, BodyDescription& b) { setSource(s, b, false); });
-    board.pane.chooseAll();
+    settle();
+    key('l');
+    drag(share(0.2, 0.3), share(0.4, 0.3));
+    for (const double x : {0.3, 0.6}) pane.addAt(DrawTool::ball, share(x, 0.6));
+    pane.use(DrawTool::choose);
+    pane.choose({"ball 1"});
+    pane.changeChosen("Dull", [](const Scene& s, BodyDescription& b) { setSource(s, b, false); });
+    pane.chooseAll();
     for (const char* title : {"Haptic source", "Moves"}) {
-        auto& mark = dynamic_cast<juce::Button&>(*find(board.view, title));
+        auto& mark = the<juce::Button>(view, title);
         const auto differs = [&] { return mark.getButtonText().containsChar(0x2260); };
         EXPECT_TRUE(differs() && !mark.getToggleState()) << title;
         for (const bool isOn : {true, false, true}) {
@@ -430,51 +393,47 @@ TEST(Drawing, AMixedMarkIsGivenToAllThatCanHaveItAndThenTakenFromAll) {
                 << title << isOn << mark.getButtonText();
         }
     }
-    EXPECT_TRUE(isSource(*board.model.world().drawing().find("ball 1")));
-    EXPECT_FALSE(isSource(board.drawn().bodies.front())) << "it does not vibrate";
+    EXPECT_TRUE(isSource(*body("ball 1")));
+    EXPECT_FALSE(isSource(drawn().bodies.front())) << "it does not vibrate";
 }
 
-TEST(Drawing, NoPanelStaysOverAWorldWhoseBodiesAreGone) {
-    Board board;
-    board.model.change("Scene",
-                       [](Mix& m) { m.scene = std::make_shared<const Scene>(*findBuiltInScene("drawing")); });
-    board.model.setSlowness(1);
-    board.settle();
+TEST_F(Drawing, NoPanelStaysOverAWorldWhoseBodiesAreGone) {
+    setScene(model, *findBuiltInScene("drawing"));
+    model.setSlowness(1);
+    settle();
     const auto isPanelThere = [&] {
-        board.model.dispatchPendingMessages(), board.view.refresh();
-        return find(board.view, "Chosen bodies")->isVisible();
+        model.dispatchPendingMessages(), view.refresh();
+        return the(view, "Chosen bodies").isVisible();
     };
     for (const bool areAll : {false, true}) {
-        board.pane.use(DrawTool::choose);
-        board.pane.choose({"pen"});
+        pane.use(DrawTool::choose);
+        pane.choose({"pen"});
         EXPECT_TRUE(isPanelThere());
-        if (areAll) board.pane.chooseAll();
-        board.pane.eraseAll(board.pane.chosen());
+        if (areAll) pane.chooseAll();
+        pane.eraseAll(pane.chosen());
         EXPECT_TRUE(runUntil([&] { return !isPanelThere(); }, 1.0)) << areAll;
-        EXPECT_EQ(board.model.world().drawing().find("pen"), nullptr) << board.model.trouble();
-        board.model.undoManager().undo();
-        board.settle();
+        EXPECT_EQ(body("pen"), nullptr) << model.trouble();
+        undo();
+        settle();
     }
 }
 
-TEST(Drawing, TheWorldSaysWhyNothingIsFelt) {
-    Board board;
+TEST_F(Drawing, TheWorldSaysWhyNothingIsFelt) {
     const auto says = [&](const char* why) {
-        board.view.refresh();
-        return dynamic_cast<juce::Label&>(*find(board.view, "Strongest hit")).getText().endsWith(why);
+        view.refresh();
+        return the<juce::Label>(view, "Strongest hit").getText().endsWith(why);
     };
-    board.model.setSlowness(0);
+    model.setSlowness(0);
     EXPECT_TRUE(says("paused"));
-    board.model.setSlowness(1);
+    model.setSlowness(1);
     EXPECT_TRUE(says("draw a ball: B"));
-    board.model.change("Scene",
-                       [](Mix& m) { m.scene = std::make_shared<const Scene>(*findBuiltInScene("marbles")); });
-    board.model.dispatchPendingMessages();
+    setScene(model, *findBuiltInScene("marbles"));
+    model.dispatchPendingMessages();
     EXPECT_FALSE(says("draw a ball: B")) << "its script does";
-    board.pane.chooseAll();
-    board.pane.changeChosen("Dull", [](const Scene& s, BodyDescription& b) { setSource(s, b, false); });
-    board.model.change("Scene", [&](Mix& m) {
-        Scene dull = board.drawn();
+    pane.chooseAll();
+    pane.changeChosen("Dull", [](const Scene& s, BodyDescription& b) { setSource(s, b, false); });
+    model.change("Scene", [&](Mix& m) {
+        Scene dull = drawn();
         std::erase_if(dull.script, [](const ScriptInput& input) {
             const auto* brought = bodyPutBy(input.action);
             return brought != nullptr && isSource(*brought);
@@ -482,53 +441,48 @@ TEST(Drawing, TheWorldSaysWhyNothingIsFelt) {
         m.scene = std::make_shared<const Scene>(dull);
     });
     EXPECT_TRUE(runUntil([&] { return says("no body is a haptic source"); }));
-    board.model.setSilent(true);
+    model.setSilent(true);
     EXPECT_TRUE(says("silent"));
 }
 
-TEST(Drawing, ASeesawIsPinnedToTheFieldAndStartsAnewAsItWasDrawn) {
-    Board board;
-    board.key('x');
-    board.drag(board.share(0.3, 0.4), board.share(0.7, 0.44));
-    board.key('i');
-    board.drag(board.share(0.5, 0.42), board.share(0.5, 0.42));
-    ASSERT_EQ(board.drawn().joints.size(), 1u) << board.model.trouble();
-    board.model.setSlowness(1);
-    board.model.restart(board.model.mix().seed);
-    ASSERT_EQ(board.drawn().joints.size(), 1u);
+TEST_F(Drawing, ASeesawIsPinnedToTheFieldAndStartsAnewAsItWasDrawn) {
+    key('x');
+    drag(share(0.3, 0.4), share(0.7, 0.44));
+    key('i');
+    drag(share(0.5, 0.42), share(0.5, 0.42));
+    ASSERT_EQ(drawn().joints.size(), 1u) << model.trouble();
+    model.setSlowness(1);
+    model.restart(model.mix().seed);
+    ASSERT_EQ(drawn().joints.size(), 1u);
     runFor(1.0);
-    board.settle();
-    const auto pose = board.world.poseOfBody("box 1");
+    settle();
+    const auto pose = world.poseOfBody("box 1");
     ASSERT_TRUE(pose);
-    EXPECT_NEAR(pose->yMetres, board.share(0.5, 0.42).y, 0.05 * board.drawn().fieldHeightMetres)
-        << "it hangs on its pin";
-    board.key('e');
-    board.drag(board.share(0.5, 0.42), board.share(0.5, 0.42));
-    EXPECT_TRUE(board.drawn().joints.empty());
+    EXPECT_NEAR(pose->yMetres, share(0.5, 0.42).y, 0.05 * drawn().fieldHeightMetres) << "it hangs on its pin";
+    key('e');
+    drag(share(0.5, 0.42), share(0.5, 0.42));
+    EXPECT_TRUE(drawn().joints.empty());
 }
 
-TEST(Drawing, AHandleSizesWhereTheBodyStays) {
-    Board board;
-    board.key('x');
-    board.drag(board.share(0.4, 0.4), board.share(0.6, 0.6));
-    board.key('s');
-    board.pane.choose({"box 1"});
-    const auto box = [&] {
-        return std::get<BoxShape>(board.model.world().drawing().find("box 1")->fixtures[0].shape);
-    };
+TEST_F(Drawing, AHandleSizesWhereTheBodyStays) {
+    key('x');
+    drag(share(0.4, 0.4), share(0.6, 0.6));
+    key('s');
+    pane.choose({"box 1"});
+    const auto box = [&] { return std::get<BoxShape>(body("box 1")->fixtures[0].shape); };
     const auto before = box();
-    board.drag(board.share(0.6, 0.6), board.share(0.7, 0.6));
+    drag(share(0.6, 0.6), share(0.7, 0.6));
     EXPECT_NEAR(box().widthMetres, 2.0 * before.widthMetres, 0.1 * before.widthMetres);
     EXPECT_NEAR(box().heightMetres, before.heightMetres, 0.1 * before.heightMetres);
-    const auto place = board.model.world().drawing().find("box 1")->positionMetres;
-    board.drag(board.share(0.5, 0.5), board.share(0.4, 0.7));
-    EXPECT_NEAR(board.model.world().drawing().find("box 1")->positionMetres.x,
-                place.x - 0.1 * board.drawn().fieldWidthMetres, 0.01 * board.drawn().fieldWidthMetres);
-    board.pane.changeChosen("Bounce",
-                            [](const Scene&, BodyDescription& body) { body.fixtures[0].restitution = 0.9; });
-    EXPECT_EQ(board.model.world().drawing().find("box 1")->fixtures[0].restitution, 0.9);
-    board.model.undoManager().undo();
-    EXPECT_FALSE(board.model.world().drawing().find("box 1")->fixtures[0].restitution);
+    const auto place = body("box 1")->positionMetres;
+    drag(share(0.5, 0.5), share(0.4, 0.7));
+    EXPECT_NEAR(body("box 1")->positionMetres.x, place.x - 0.1 * drawn().fieldWidthMetres,
+                0.01 * drawn().fieldWidthMetres);
+    pane.changeChosen("Bounce",
+                      [](const Scene&, BodyDescription& body) { body.fixtures[0].restitution = 0.9; });
+    EXPECT_EQ(body("box 1")->fixtures[0].restitution, 0.9);
+    undo();
+    EXPECT_FALSE(body("box 1")->fixtures[0].restitution);
 }
 
 std::vector<CollisionEvent> eventsOf(const Scene& scene, std::uint32_t seed, std::int64_t untilNs) {
@@ -538,52 +492,48 @@ std::vector<CollisionEvent> eventsOf(const Scene& scene, std::uint32_t seed, std
     return events;
 }
 
-TEST(Script, WhatHandsDidIsTheScenesScriptAndTheSceneGivesTheSameHits) {
-    Board board;
-    board.key('b');
-    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
-    MixerScript& script = board.model.script();
+TEST_F(Drawing, WhatHandsDidIsTheScenesScriptAndTheSceneGivesTheSameHits) {
+    drawBall();
+    MixerScript& script = model.script();
     script.start();
-    ASSERT_TRUE(runUntil([&] { return board.model.look(), script.seconds() > 0.05; }))
+    ASSERT_TRUE(runUntil([&] { return model.look(), script.seconds() > 0.05; }))
         << "the world goes, though it stood still";
-    EXPECT_EQ(board.model.world().act(TiltAction{0.4}), "");
-    EXPECT_EQ(board.model.world().act(ImpulseAction{"ball 1", {300.0, 200.0}, Vector{0.01, 0.0}}), "");
-    ASSERT_TRUE(runUntil([&] { return board.model.look(), script.seconds() > 0.8; }));
-    EXPECT_EQ(board.model.world().act(GripAction{"ball 1", Vector{1.0, 1.0}, {}, 0.1}), "");
-    ASSERT_TRUE(runUntil([&] { return board.model.look(), script.seconds() > 1.5; }));
+    EXPECT_EQ(model.world().act(TiltAction{0.4}), "");
+    EXPECT_EQ(model.world().act(ImpulseAction{"ball 1", {300.0, 200.0}, Vector{0.01, 0.0}}), "");
+    ASSERT_TRUE(runUntil([&] { return model.look(), script.seconds() > 0.8; }));
+    EXPECT_EQ(model.world().act(GripAction{"ball 1", Vector{1.0, 1.0}, {}, 0.1}), "");
+    ASSERT_TRUE(runUntil([&] { return model.look(), script.seconds() > 1.5; }));
     EXPECT_EQ(script.inputs(), 3U);
-    const std::size_t take = board.model.saved().log.takes.size() - 1;
+    const std::size_t take = model.saved().log.takes.size() - 1;
     script.stop();
     ASSERT_NE(script.hands(), nullptr);
-    const SceneRun& live = board.model.saved().log.takes[take];
+    const SceneRun& live = model.saved().log.takes[take];
     ASSERT_EQ(live.inputs.size(), 3U);
     const auto endNs = static_cast<std::int64_t>(1e9 * script.hands()->lengthSeconds);
-    const auto events = eventsOf(board.drawn(), live.seed, endNs);
+    const auto events = eventsOf(drawn(), live.seed, endNs);
     EXPECT_GT(events.size(), 0U) << "the ball hits the floor";
     EXPECT_TRUE(events == eventsOf(live.whole(), live.seed, endNs));
 
     script.setTrim({0.5, 1.2, true});
-    EXPECT_NEAR(board.drawn().scriptPeriodSeconds, 0.7, 1e-9);
+    EXPECT_NEAR(drawn().scriptPeriodSeconds, 0.7, 1e-9);
     EXPECT_EQ(script.trim(), (ScriptTrim{0.5, 1.2, true}));
-    board.model.undoManager().undo();
+    undo();
     EXPECT_EQ(script.trim(), (ScriptTrim{0.0, script.hands()->lengthSeconds, false})) << "untrimmed again";
-    board.model.undoManager().undo();
-    EXPECT_TRUE(board.drawn().script.empty()) << "as before the recording: one edit";
-    EXPECT_NE(board.model.world().drawing().find("ball 1"), nullptr);
+    undo();
+    EXPECT_TRUE(drawn().script.empty()) << "as before the recording: one edit";
+    EXPECT_NE(body("ball 1"), nullptr);
     EXPECT_EQ(script.hands(), nullptr);
 }
 
-TEST(Script, AnEditOfTheDrawingEndsTheRecordingAndStays) {
-    Board board;
-    MixerScript& script = board.model.script();
+TEST_F(Drawing, AnEditOfTheDrawingEndsTheRecordingAndStays) {
+    MixerScript& script = model.script();
     script.start();
-    ASSERT_TRUE(runUntil([&] { return board.model.look(), script.seconds() > 0.05; }));
-    EXPECT_EQ(board.model.world().act(TiltAction{0.4}), "");
-    board.key('b');
-    board.drag(board.share(0.5, 0.5), board.share(0.55, 0.5));
-    EXPECT_TRUE(runUntil([&] { return board.model.look(), !script.isRecording(); }));
-    ASSERT_EQ(board.drawn().script.size(), 1U);
-    EXPECT_NE(board.model.world().drawing().find("ball 1"), nullptr);
+    ASSERT_TRUE(runUntil([&] { return model.look(), script.seconds() > 0.05; }));
+    EXPECT_EQ(model.world().act(TiltAction{0.4}), "");
+    drawBall();
+    EXPECT_TRUE(runUntil([&] { return model.look(), !script.isRecording(); }));
+    ASSERT_EQ(drawn().script.size(), 1U);
+    EXPECT_NE(body("ball 1"), nullptr);
 }
 
 TEST(NewScene, ABallThatFallsInANewBoxIsFelt) {
@@ -625,7 +575,7 @@ Scene heap() {
 TEST(BigWorld, SaysThatItIsTooMuchAndIsDrawnMeanwhile) {
     MixerModel model{onlyNoDevice(), noDevice};
     MixerView view{model};
-    model.change("Heap", [](Mix& mix) { mix.scene = std::make_shared<const Scene>(heap()); });
+    setScene(model, heap());
     ASSERT_TRUE(runUntil([&] { return view.refresh(), model.trouble().contains("of real time"); }));
     EXPECT_TRUE(model.trouble().startsWith("2,004 bodies: ")) << model.trouble();
     EXPECT_EQ(view.latest().poses.size(), 2004U);
@@ -670,8 +620,7 @@ TEST(FirstStart, APicoReplacesTheFirstLayoutAndNoChosenOneThatFits) {
     fitLayoutTo(8, mix, "ALSA:PhysVib pico8");
     EXPECT_EQ(mix.layout.name, "pico8");
     EXPECT_EQ(mix.count(), 8);
-    mix.layout = presetLayout("ring4");
-    mix.resizeStrips();
+    setLayout(mix, "ring4");
     fitLayoutTo(8, mix, "ALSA:PhysVib pico8");
     EXPECT_EQ(mix.layout.name, "ring4");
     fitLayoutTo(2, mix, "ALSA:PhysVib pico8");

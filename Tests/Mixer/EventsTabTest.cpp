@@ -64,7 +64,7 @@ protected:
         const std::int64_t first = recent[static_cast<std::size_t>(rows.back())].event.timeNs; // the oldest
         double sum = 0.0;
         for (const int row : rows) {
-            const CollisionEvent& e = recent[static_cast<std::size_t>(row)].event;
+            const CollisionEvent& e = nth(recent, row).event;
             const double t =
                 static_cast<double>(frame) / 48000.0 - 1e-9 * static_cast<double>(e.timeNs - first);
             PhantomPanner::Gains gains{};
@@ -86,14 +86,14 @@ protected:
         return most;
     }
     void chooseFormat(const juce::String& ending) {
-        dynamic_cast<juce::ComboBox&>(*find(view, "Dragged as"))
+        the<juce::ComboBox>(view, "Dragged as")
             .setSelectedItemIndex(hitEndings().indexOf(ending), juce::sendNotificationSync);
     }
     EventsTab& tab() { return *view.scope().find<EventsTab>(); }
 
     MixerModel model{onlyNoDevice(), noDevice, emptyBox()};
     MixerView view{model};
-    juce::ListBox& list = dynamic_cast<juce::ListBox&>(*find(view, "List of played events"));
+    juce::ListBox& list = the<juce::ListBox>(view, "List of played events");
 };
 
 TEST_F(EventsTabTest, WhatIsDraggedOutIsTheChosenHitsAloneSampleBySample) {

@@ -12,8 +12,8 @@ namespace {
 using namespace test;
 
 /// A floor that is no haptic source.
-struct DullRig : NewSceneRig {
-    DullRig() {
+struct DullWorld : testing::Test, NewSceneRig {
+    DullWorld() {
         model.change("Dull floor", [&](Mix& mix) {
             auto scene = newScene(*mix.scene, SceneGround::floor);
             for (auto& body : scene.bodies) {
@@ -27,76 +27,68 @@ struct DullRig : NewSceneRig {
     }
     int soundless() {
         for (int i = 0; i < std::ssize(drawn().materials); ++i)
-            if (drawn().materials[static_cast<std::size_t>(i)].frequencyHz <= 0.0) return i;
+            if (nth(drawn().materials, i).frequencyHz <= 0.0) return i;
         return -1;
     }
-    juce::Button* button(const juce::String& title) { return dynamic_cast<juce::Button*>(find(view, title)); }
 };
 
-TEST(FeltHint, AMaterialThatGivesNothingSaysSoAndIsMadeFelt) {
-    DullRig rig;
-    const int dull = rig.soundless();
+TEST_F(DullWorld, AMaterialThatGivesNothingSaysSoAndIsMadeFelt) {
+    const int dull = soundless();
     ASSERT_GE(dull, 0);
-    const auto name = utf8(rig.drawn().materials[static_cast<std::size_t>(dull)].name);
-    auto* chip = rig.button("Material " + name);
-    ASSERT_NE(chip, nullptr);
-    EXPECT_TRUE(chip->getTooltip().contains("not felt at usual impacts")) << chip->getTooltip();
-    chip->onClick();
-    rig.model.dispatchPendingMessages();
-    EXPECT_TRUE(rig.model.trouble().startsWith(name + " is not felt at usual impacts: "))
-        << rig.model.trouble();
-    EXPECT_TRUE(rig.model.trouble().contains("with Select, tick 'haptic source'"))
-        << "the world's own explanation, in words of the mixer: " << rig.model.trouble();
-    auto* mend = rig.button("Make it felt");
-    ASSERT_TRUE(mend != nullptr && mend->isVisible());
-    mend->onClick();
-    rig.model.dispatchPendingMessages();
-    EXPECT_EQ(rig.model.trouble(), "") << "it is felt now";
-    EXPECT_GT(rig.drawn().materials[static_cast<std::size_t>(dull)].frequencyHz, 0.0);
-    EXPECT_EQ(whyNotFelt(rig.drawn(), dull), "");
-    EXPECT_FALSE(rig.button("Material " + name)->getTooltip().contains("not felt"));
-    rig.model.undoManager().undo();
-    EXPECT_EQ(rig.drawn().materials[static_cast<std::size_t>(dull)].frequencyHz, 0.0) << "one step";
+    const auto name = utf8(nth(drawn().materials, dull).name);
+    auto& chip = button("Material " + name);
+    EXPECT_TRUE(chip.getTooltip().contains("not felt at usual impacts")) << chip.getTooltip();
+    chip.onClick();
+    model.dispatchPendingMessages();
+    EXPECT_TRUE(model.trouble().startsWith(name + " is not felt at usual impacts: ")) << model.trouble();
+    EXPECT_TRUE(model.trouble().contains("with Select, tick 'haptic source'"))
+        << "the world's own explanation, in words of the mixer: " << model.trouble();
+    auto& mend = button("Make it felt");
+    ASSERT_TRUE(mend.isVisible());
+    mend.onClick();
+    model.dispatchPendingMessages();
+    EXPECT_EQ(model.trouble(), "") << "it is felt now";
+    EXPECT_GT(nth(drawn().materials, dull).frequencyHz, 0.0);
+    EXPECT_EQ(whyNotFelt(drawn(), dull), "");
+    EXPECT_FALSE(button("Material " + name).getTooltip().contains("not felt"));
+    undo();
+    EXPECT_EQ(nth(drawn().materials, dull).frequencyHz, 0.0) << "one step";
 }
 
-TEST(FeltHint, ABodyThatGivesNothingIsMadeAHapticSourceThatVibrates) {
-    DullRig rig;
-    rig.pane.setMaterial(rig.soundless());
-    rig.pane.addAt(DrawTool::ball, rig.share(0.5, 0.5));
-    rig.model.dispatchPendingMessages();
-    EXPECT_TRUE(rig.model.trouble().startsWith("ball 1 is not felt")) << rig.model.trouble();
-    rig.button("Make it felt")->onClick();
-    rig.model.dispatchPendingMessages();
-    EXPECT_EQ(rig.model.trouble(), "");
-    const auto* ball = rig.model.world().drawing().find("ball 1");
+TEST_F(DullWorld, ABodyThatGivesNothingIsMadeAHapticSourceThatVibrates) {
+    pane.setMaterial(soundless());
+    pane.addAt(DrawTool::ball, share(0.5, 0.5));
+    model.dispatchPendingMessages();
+    EXPECT_TRUE(model.trouble().startsWith("ball 1 is not felt")) << model.trouble();
+    button("Make it felt").onClick();
+    model.dispatchPendingMessages();
+    EXPECT_EQ(model.trouble(), "");
+    const auto* ball = body("ball 1");
     EXPECT_TRUE(ball->fixtures[0].isCamera);
-    EXPECT_EQ(whyNotFelt(rig.drawn(), *ball), "");
-    rig.model.setSlowness(1);
-    const auto hits = rig.model.recent().newestFirst().size();
-    EXPECT_TRUE(
-        runUntil([&] { return rig.model.look(), rig.model.recent().newestFirst().size() > hits; }, 5.0))
+    EXPECT_EQ(whyNotFelt(drawn(), *ball), "");
+    model.setSlowness(1);
+    const auto hits = model.recent().newestFirst().size();
+    EXPECT_TRUE(runUntil([&] { return model.look(), model.recent().newestFirst().size() > hits; }, 5.0))
         << "and it is felt when it falls";
 }
 
-TEST(FeltHint, GoesWhenAFeltMaterialIsChosen) {
-    DullRig rig;
+TEST_F(DullWorld, GoesWhenAFeltMaterialIsChosen) {
     const auto press = [&](int material) {
-        rig.button("Material " + utf8(rig.drawn().materials[static_cast<std::size_t>(material)].name))
-            ->onClick();
-        rig.model.dispatchPendingMessages();
+        button("Material " + utf8(nth(drawn().materials, material).name)).onClick();
+        model.dispatchPendingMessages();
     };
-    press(rig.soundless());
-    ASSERT_NE(rig.model.trouble(), "");
+    press(soundless());
+    ASSERT_NE(model.trouble(), "");
     int felt = 0;
-    while (!whyNotFelt(rig.drawn(), felt).empty()) ASSERT_LT(++felt, std::ssize(rig.drawn().materials));
+    while (!whyNotFelt(drawn(), felt).empty()) ASSERT_LT(++felt, std::ssize(drawn().materials));
     press(felt);
-    EXPECT_EQ(rig.model.trouble(), "");
+    EXPECT_EQ(model.trouble(), "");
 }
 
 TEST(FeltHint, WhatMeetsAFeltWallIsFelt) {
     NewSceneRig rig; // its floor is a haptic source
     for (int i = 0; i < std::ssize(rig.drawn().materials); ++i)
-        EXPECT_EQ(whyNotFelt(rig.drawn(), i), "") << rig.drawn().materials[static_cast<std::size_t>(i)].name;
+        EXPECT_EQ(whyNotFelt(rig.drawn(), i), "") << nth(rig.drawn().materials, i).name;
     rig.pane.addAt(DrawTool::ball, rig.share(0.5, 0.5));
     rig.pane.addAt(DrawTool::wall, rig.share(0.2, 0.5));
     EXPECT_EQ(rig.model.trouble(), "");
@@ -120,10 +112,10 @@ TEST(FeltHint, LevelsThatLetNothingBeFeltAreToldOnceAndNoLongerThanTheyDo) {
         all([j](Mix& mix) { mix.strips[j].isMuted = true; });
     }
     EXPECT_EQ(told(), "Nothing is felt: every strip is muted");
-    const auto* const strongest = dynamic_cast<juce::Label*>(find(view, "Strongest hit"));
+    const auto& strongest = the<juce::Label>(view, "Strongest hit");
     EXPECT_TRUE(runUntil([&] {
-        return view.refresh(), strongest->getText().contains("every strip is muted");
-    })) << strongest->getText();
+        return view.refresh(), strongest.getText().contains("every strip is muted");
+    })) << strongest.getText();
     all([](Mix& mix) { mix.strips[2].isMuted = false; });
     EXPECT_EQ(told(), "");
     all([](Mix& mix) {

@@ -10,10 +10,7 @@ namespace {
 using namespace test;
 using juce::KeyPress;
 
-class LanesByHand : public ::testing::Test {
-protected:
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+struct LanesByHand : testing::Test, MixerInView {
     LaneRow* row = nullptr;
     void SetUp() override {
         view.scope().choose("Gain lanes");
@@ -145,8 +142,7 @@ TEST_F(LanesByHand, OfASecondGroupAreItsOwnAndAllAreSeenToTheirEnds) {
     model.dispatchPendingMessages();
     for (const auto& [lastSeconds, middleSeconds] : {std::pair{12.0, 10.0}, {25.0, 15.0}, {100.0, 60.0}}) {
         model.change("Lane", [last = lastSeconds](Mix& mix) { mix.groups[1].lane = {{last, -10.0}}; });
-        model.dispatchPendingMessages();
-        view.refresh();
+        show();
         row = dynamic_cast<LaneRow*>(find(view, "Gain lane of Right hand"));
         ASSERT_NE(row, nullptr);
         press(at(0.5f, 0.9f));
@@ -158,59 +154,7 @@ TEST_F(LanesByHand, OfASecondGroupAreItsOwnAndAllAreSeenToTheirEnds) {
 
 // Faders that are moved while the model records become lanes, which play and are taken back.
 
-using namespace test;
-
-float lastRecordedGain(MixerModel& model, int channel) {
-    float gain = 1.0f;
-    for (const auto& c : model.saved().log.channels)
-        if (c.kind == RenderControl::Kind::gain && c.channel == channel) gain = c.value;
-    return gain;
-}
-
-TEST(Lanes, FadersThatAreMovedWhileItRecordsAreWrittenAndPlayedAgain) {
-    const TestFolder folder;
-    MixerModel model{onlyNoDevice(), noDevice};
-    model.change("Group", [](Mix& mix) { addGroup(mix, "Left hand"); });
-    model.change("Gain", [](Mix& mix) { mix.strips[2].gainDb = -6.0; });
-    ASSERT_EQ(model.recording().start(folder("take.wav")), "");
-    const auto wait = [&](double seconds) {
-        const auto until = model.session().world().sceneNs() + static_cast<std::int64_t>(1e9 * seconds);
-        return runUntil([&] { return model.look(), model.session().world().sceneNs() >= until; });
-    };
-    ASSERT_TRUE(wait(0.3));
-    model.change("Gain", [](Mix& mix) { mix.strips[2].gainDb = -26.0, mix.groups[0].gainDb = -12.0; });
-    ASSERT_TRUE(wait(0.3));
-    model.recording().stop();
-    ASSERT_TRUE(runUntil([&] { return model.look(), !model.mix().strips[2].lane.empty(); }))
-        << model.trouble();
-    EXPECT_EQ(model.mix().strips[2].gainDb, -6.0) << "back where it was";
-    EXPECT_EQ(model.mix().groups[0].gainDb, 0.0);
-    EXPECT_EQ(model.mix().strips[2].lane.front().db, 0.0);
-    EXPECT_EQ(model.mix().strips[2].lane.back().db, -20.0);
-    EXPECT_EQ(model.mix().groups[0].lane.back().db, -12.0);
-    EXPECT_TRUE(model.mix().strips[0].lane.empty());
-    EXPECT_NEAR(lastRecordedGain(model, 2), 0.0501, 1e-3) << "felt as when it was moved";
-    model.restart(model.mix().seed);
-    ASSERT_TRUE(runUntil([&] { return model.look(), std::abs(lastRecordedGain(model, 2) - 0.501f) < 1e-3f; }))
-        << lastRecordedGain(model, 2);
-    ASSERT_TRUE(runUntil([&] {
-        return model.look(), std::abs(lastRecordedGain(model, 2) - 0.0501f) < 1e-3f;
-    })) << "and falls again";
-    model.undoManager().undo();
-    EXPECT_TRUE(model.mix().strips[2].lane.empty());
-    EXPECT_EQ(model.mix().strips[2].gainDb, -26.0);
-}
-
-TEST(Lanes, WithoutAPointTheFaderIsHeardAgain) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    model.change("Lane", [](Mix& mix) { mix.strips[1].lane = {{0.0, -20.0}}; });
-    ASSERT_TRUE(runUntil([&] { return std::abs(lastRecordedGain(model, 1) - 0.1f) < 1e-6f; }));
-    model.undoManager().undo();
-    EXPECT_EQ(lastRecordedGain(model, 1), 1.0f);
-}
-
-class RecordedLanes : public ::testing::Test {
-protected:
+struct RecordedLanes : testing::Test {
     const TestFolder folder;
     MixerModel model{onlyNoDevice(), noDevice};
 
@@ -232,8 +176,49 @@ protected:
             for (std::size_t j = 0; j < db.size(); ++j) mix.strips[j].gainDb = db[j];
         });
     }
+    /// As the session has it last.
+    float lastGain(int channel) {
+        float gain = 1.0f;
+        for (const auto& c : model.saved().log.channels)
+            if (c.kind == RenderControl::Kind::gain && c.channel == channel) gain = c.value;
+        return gain;
+    }
     const Strip& strip(std::size_t number) const { return model.mix().strips[number]; }
 };
+
+TEST_F(RecordedLanes, FadersThatAreMovedWhileItRecordsAreWrittenAndPlayedAgain) {
+    model.change("Group", [](Mix& mix) { addGroup(mix, "Left hand"); });
+    model.change("Gain", [](Mix& mix) { mix.strips[2].gainDb = -6.0; });
+    ASSERT_EQ(model.recording().start(folder("take.wav")), "");
+    ASSERT_TRUE(wait(0.3));
+    model.change("Gain", [](Mix& mix) { mix.strips[2].gainDb = -26.0, mix.groups[0].gainDb = -12.0; });
+    ASSERT_TRUE(wait(0.3));
+    model.recording().stop();
+    ASSERT_TRUE(runUntil([&] { return model.look(), !model.mix().strips[2].lane.empty(); }))
+        << model.trouble();
+    EXPECT_EQ(model.mix().strips[2].gainDb, -6.0) << "back where it was";
+    EXPECT_EQ(model.mix().groups[0].gainDb, 0.0);
+    EXPECT_EQ(model.mix().strips[2].lane.front().db, 0.0);
+    EXPECT_EQ(model.mix().strips[2].lane.back().db, -20.0);
+    EXPECT_EQ(model.mix().groups[0].lane.back().db, -12.0);
+    EXPECT_TRUE(model.mix().strips[0].lane.empty());
+    EXPECT_NEAR(lastGain(2), 0.0501, 1e-3) << "felt as when it was moved";
+    model.restart(model.mix().seed);
+    ASSERT_TRUE(runUntil([&] { return model.look(), std::abs(lastGain(2) - 0.501f) < 1e-3f; }))
+        << lastGain(2);
+    ASSERT_TRUE(runUntil([&] { return model.look(), std::abs(lastGain(2) - 0.0501f) < 1e-3f; }))
+        << "and falls again";
+    model.undoManager().undo();
+    EXPECT_TRUE(model.mix().strips[2].lane.empty());
+    EXPECT_EQ(model.mix().strips[2].gainDb, -26.0);
+}
+
+TEST_F(RecordedLanes, WithoutAPointTheFaderIsHeardAgain) {
+    model.change("Lane", [](Mix& mix) { mix.strips[1].lane = {{0.0, -20.0}}; });
+    ASSERT_TRUE(runUntil([&] { return std::abs(lastGain(1) - 0.1f) < 1e-6f; }));
+    model.undoManager().undo();
+    EXPECT_EQ(lastGain(1), 1.0f);
+}
 
 TEST_F(RecordedLanes, AreFeltAsTheFadersThatWereMoved) {
     setFaders({leastStripDb, -20.0, -6.0});
@@ -300,36 +285,27 @@ TEST_F(RecordedLanes, EndWhereAGroupIsAddedAndBeginAgain) {
 
 // Groups at the model and in its window: what they do to strips, how they are named, shown and taken back.
 
-using namespace test;
-using Kind = RenderControl::Kind;
+struct LeftHand : RecordedLanes {
+    LeftHand() {
+        model.change("Group", [](Mix& mix) {
+            mix.strips[0].group = mix.strips[1].group = addGroup(mix, "Left hand");
+        });
+    }
+};
 
-float lastGain(MixerModel& model, int channel) {
-    float gain = 1.0f;
-    for (const auto& c : model.saved().log.channels)
-        if (c.kind == Kind::gain && c.channel == channel) gain = c.value;
-    return gain;
-}
-
-void group(MixerModel& model) {
-    model.change("Group",
-                 [](Mix& mix) { mix.strips[0].group = mix.strips[1].group = addGroup(mix, "Left hand"); });
-}
-
-TEST(Groups, AFaderAndAMuteOfAGroupReachTheSessionAndAreTakenBack) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    group(model);
+TEST_F(LeftHand, AFaderAndAMuteOfAGroupReachTheSessionAndAreTakenBack) {
     model.change("Gain", [](Mix& mix) { mix.groups[0].gainDb = -20.0; });
-    EXPECT_FLOAT_EQ(lastGain(model, 0), 0.1f);
-    EXPECT_FLOAT_EQ(lastGain(model, 1), 0.1f);
-    EXPECT_FLOAT_EQ(lastGain(model, 2), 1.0f);
+    EXPECT_FLOAT_EQ(lastGain(0), 0.1f);
+    EXPECT_FLOAT_EQ(lastGain(1), 0.1f);
+    EXPECT_FLOAT_EQ(lastGain(2), 1.0f);
     model.change("Mute", [](Mix& mix) { mix.groups[0].isMuted = true; });
     std::vector<int> muted;
     for (const auto& c : model.saved().log.channels)
-        if (c.kind == Kind::mute && c.value != 0.0f) muted.push_back(c.channel);
+        if (c.kind == RenderControl::Kind::mute && c.value != 0.0f) muted.push_back(c.channel);
     EXPECT_EQ(muted, (std::vector<int>{0, 1}));
     model.undoManager().undo();
     model.undoManager().undo();
-    EXPECT_FLOAT_EQ(lastGain(model, 0), 1.0f);
+    EXPECT_FLOAT_EQ(lastGain(0), 1.0f);
     const auto again = readSession(sessionJson(model.saved()), "s.json");
     ASSERT_TRUE(again) << again.error;
     EXPECT_EQ(mixOf(again.value).groups, model.mix().groups);
@@ -337,10 +313,8 @@ TEST(Groups, AFaderAndAMuteOfAGroupReachTheSessionAndAreTakenBack) {
     EXPECT_EQ(model.mix().strips[0].group, 0) << "a strip takes its group along";
 }
 
-TEST(Groups, AreMadeRenamedMutedAndTakenApartInTheWindow) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(LeftHand, AreMadeRenamedMutedAndTakenApartInTheWindow) {
     MixerView view{model};
-    group(model);
     model.dispatchPendingMessages();
     auto* mute = dynamic_cast<juce::Button*>(find(view, "Mute the group Left hand"));
     ASSERT_NE(mute, nullptr);
@@ -353,30 +327,26 @@ TEST(Groups, AreMadeRenamedMutedAndTakenApartInTheWindow) {
     name->setText("Palm", juce::sendNotificationSync);
     EXPECT_EQ(model.mix().groups[0].name, "Palm");
     model.dispatchPendingMessages();
-    auto* ungroup = dynamic_cast<juce::Button*>(find(view, "Ungroup Palm"));
-    ASSERT_NE(ungroup, nullptr) << "its controls have its new name";
-    ungroup->triggerClick();
+    auto& ungroup = the<juce::Button>(view, "Ungroup Palm");
+    ungroup.triggerClick();
     ASSERT_TRUE(runUntil([&] { return model.mix().groups.empty(); }));
     EXPECT_TRUE(model.mix().strips[1].isMuted) << "felt as before";
     model.dispatchPendingMessages();
     EXPECT_EQ(find(view, "Ungroup Palm"), nullptr);
 }
 
-TEST(Groups, ShowTheNameAndTheGainThatTheyHave) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(LeftHand, ShowTheNameAndTheGainThatTheyHave) {
     MixerView view{model};
-    group(model);
     model.dispatchPendingMessages();
-    auto* shown = find(view, "Group Left hand");
-    auto* name = dynamic_cast<juce::Label*>(find(view, "Name of Left hand"));
-    ASSERT_NE(name, nullptr);
+    auto& shown = the(view, "Group Left hand");
+    auto& name = the<juce::Label>(view, "Name of Left hand");
     for (const auto& bad : {juce::String{"  "}, juce::String::repeatedString("x", 2000)}) {
-        name->setText(bad, juce::sendNotificationSync);
+        name.setText(bad, juce::sendNotificationSync);
         ASSERT_EQ(model.mix().groups[0].name, "Left hand");
-        EXPECT_EQ(name->getText(), "Left hand");
+        EXPECT_EQ(name.getText(), "Left hand");
     }
     juce::Slider* fader = nullptr;
-    for (auto* child : shown->getChildren())
+    for (auto* child : shown.getChildren())
         if (auto* slider = dynamic_cast<juce::Slider*>(child)) fader = slider;
     ASSERT_NE(fader, nullptr);
     fader->setValue(-12.0, juce::sendNotificationSync);

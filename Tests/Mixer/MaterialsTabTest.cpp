@@ -37,7 +37,7 @@ struct Materials : testing::Test {
         return opened;
     }
     const Material& now() const { return model.world().scene().materials[wood]; }
-    juce::Slider& slider(const juce::String& title) { return dynamic_cast<juce::Slider&>(*find(tab, title)); }
+    juce::Slider& slider(const juce::String& title) { return the<juce::Slider>(tab, title); }
     const std::vector<LiveInput>& inputs() { return model.saved().log.takes.back().inputs; }
     /// Whether such a hit has been played, whoever has looked: the view does by itself, and what one look
     /// shows the next does not.
@@ -103,14 +103,14 @@ TEST_F(Materials, AreSetWhileTheyArePlayedAndTakenBack) {
 
 TEST_F(Materials, SurfacesAreMadeRoughAndTakenBack) {
     tab.choose(0);
-    EXPECT_FALSE(find(tab, "Frequency")->isEnabled()) << "rubber is silent there";
-    EXPECT_FALSE(find(tab, "Roughness")->isEnabled()) << "a smooth surface has none";
+    EXPECT_FALSE(the(tab, "Frequency").isEnabled()) << "rubber is silent there";
+    EXPECT_FALSE(the(tab, "Roughness").isEnabled()) << "a smooth surface has none";
     slider("Grain").setValue(0.004, juce::sendNotificationSync);
     model.dispatchPendingMessages();
-    EXPECT_TRUE(find(tab, "Roughness")->isEnabled()) << "another's camera feels what slides over it";
+    EXPECT_TRUE(the(tab, "Roughness").isEnabled()) << "another's camera feels what slides over it";
     slider("Roughness").setValue(2.5, juce::sendNotificationSync);
     slider("Rolling").setValue(0.75, juce::sendNotificationSync);
-    dynamic_cast<juce::ComboBox&>(*find(tab, "Pattern")).setSelectedItemIndex(1, juce::sendNotificationSync);
+    the<juce::ComboBox>(tab, "Pattern").setSelectedItemIndex(1, juce::sendNotificationSync);
     ASSERT_EQ(inputs().size(), 4u);
     EXPECT_EQ(inputs()[3].action, (Action{TextureAction{0, 0.004, 2.5, GrainPattern::regular, 0.75}}));
     EXPECT_EQ(model.world().scene().materials[0].texture().pattern, GrainPattern::regular);
@@ -164,8 +164,7 @@ TEST_F(Materials, StayWhenTheSceneStartsAnewAndGoWithAnother) {
         [&] { return model.saved().log.takes.size() > 1 && model.saved().log.takes.back().seed == 7; }));
     EXPECT_EQ(model.saved().log.takes.back().scene->materials[wood].frequencyHz, 205.0)
         << "it is so from the first hit on";
-    model.change("Scene",
-                 [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*MixerModel::firstMix().scene); });
+    setScene(model, *MixerModel::firstMix().scene);
     EXPECT_EQ(now().frequencyHz, 349.0);
 }
 
@@ -186,7 +185,7 @@ TEST_F(Materials, ARecordingThatIsDroppedGivesBothNumbers) {
     EXPECT_NEAR(FrequencyAxis::hzOf(static_cast<int>(peak)), 352.0, 10.0);
     EXPECT_GT(recording->amplitude, 0.4);
     EXPECT_LE(recording->amplitude, 1.0);
-    EXPECT_TRUE(find(tab, "Decay of the material")->getDescription().contains("confidence high"));
+    EXPECT_TRUE(the(tab, "Decay of the material").getDescription().contains("confidence high"));
     model.undoManager().undo();
     EXPECT_EQ(now().frequencyHz, 349.0);
     model.undoManager().redo();
@@ -195,7 +194,7 @@ TEST_F(Materials, ARecordingThatIsDroppedGivesBothNumbers) {
 
 TEST_F(Materials, ARecordingThatIsDroppedOnARowIsOfThatMaterial) {
     ASSERT_TRUE(writeKnock(folder("knock.wav")));
-    auto& list = dynamic_cast<juce::ListBox&>(*find(tab, "List of materials"));
+    auto& list = the<juce::ListBox>(tab, "List of materials");
     tab.filesDropped({folder("knock.wav").getFullPathName()}, 20, list.getY() + list.getRowHeight() / 2);
     tab.finishMeasuring();
     EXPECT_NEAR(model.world().scene().materials[3].frequencyHz, 352.0, 0.5)
@@ -279,10 +278,10 @@ TEST_F(Materials, AnAuditionIsAHitOfTheMaterialAtTheSpot) {
             [&](const CollisionEvent& e) { return e.frequencyHz == 349.0 && e.x == strikes[0].x; });
     }));
     slider("Spot from the left").setValue(100.0, juce::sendNotificationSync);
-    dynamic_cast<juce::Button&>(*find(tab, "Feel the material at the spot")).onClick();
+    the<juce::Button>(tab, "Feel the material at the spot").onClick();
     EXPECT_EQ(model.saved().log.strikes.back().x, model.world().scene().fieldWidthMetres);
     tab.choose(0);
-    EXPECT_FALSE(find(tab, "Feel the material at the spot")->isEnabled());
+    EXPECT_FALSE(the(tab, "Feel the material at the spot").isEnabled());
     EXPECT_NE(model.strikes().audition(0, 0.5, 0.5), "") << "rubber is silent there";
     EXPECT_NE(model.strikes().audition(99, 0.5, 0.5), "");
 }

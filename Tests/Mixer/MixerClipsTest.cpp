@@ -34,7 +34,7 @@ struct MixerClipsTest : testing::Test {
         target.filesDropped(files, place.x, place.y);
     }
     juce::FileDragAndDropTarget& strip(const char* title) {
-        return dynamic_cast<juce::FileDragAndDropTarget&>(*find(view, title));
+        return the<juce::FileDragAndDropTarget>(view, title);
     }
     /// The clip that is felt next, whoever has looked: the view does by itself.
     CollisionEvent felt() {

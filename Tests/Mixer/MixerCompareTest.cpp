@@ -13,7 +13,7 @@ namespace {
 
 using namespace test;
 
-struct Compared {
+struct Compared : testing::Test {
     MixerModel model{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
     MixerView view{model};
     std::vector<CollisionEvent> events;
@@ -36,64 +36,61 @@ struct Compared {
     char shown() { return view.world().compare().isOn() ? view.world().compare().shown() : '-'; }
 };
 
-TEST(MixerCompare, OneKeyChangesBetweenTwoMixesAtMatchedLevels) {
-    Compared c;
-    const double before = c.db();
-    c.key();
-    EXPECT_EQ(c.shown(), 'B');
-    EXPECT_EQ(c.db(), before) << "a copy of A";
-    c.model.change("Law", [](Mix& mix) {
+TEST_F(Compared, OneKeyChangesBetweenTwoMixesAtMatchedLevels) {
+    const double before = db();
+    key();
+    EXPECT_EQ(shown(), 'B');
+    EXPECT_EQ(db(), before) << "a copy of A";
+    model.change("Law", [](Mix& mix) {
         mix.law = PanningLaw::energy;
         for (Strip& strip : mix.strips) strip.gainDb = 6.0;
         mix.layout = presetLayout("phone2", mix.layout.enchanters);
         mix.resizeStrips();
     });
-    const double louder = c.db();
+    const double louder = db();
     ASSERT_GT(louder, before + 1.0);
-    c.key();
-    EXPECT_EQ(c.shown(), 'A');
-    EXPECT_EQ(c.model.mix().count(), 4);
-    EXPECT_EQ(c.db(), before) << "the quieter one is not turned up";
-    c.key();
-    EXPECT_EQ(c.model.mix().count(), 2);
-    EXPECT_EQ(c.model.mix().law, PanningLaw::energy);
-    EXPECT_NEAR(c.db(), before, 0.05) << "the louder one is turned down";
-    EXPECT_NEAR(c.view.world().compare().loweredDb(), louder - before, 0.05);
-    const auto* button = dynamic_cast<juce::Button*>(find(c.view, "Compare A and B"));
-    EXPECT_EQ(button->getButtonText(), "B");
-    c.key();
-    c.key();
-    EXPECT_NEAR(c.db(), before, 0.05) << "again and again";
-    c.view.world().compare().end();
-    EXPECT_EQ(c.shown(), '-');
-    EXPECT_NEAR(c.db(), before, 0.05) << "the end makes nothing louder";
+    key();
+    EXPECT_EQ(shown(), 'A');
+    EXPECT_EQ(model.mix().count(), 4);
+    EXPECT_EQ(db(), before) << "the quieter one is not turned up";
+    key();
+    EXPECT_EQ(model.mix().count(), 2);
+    EXPECT_EQ(model.mix().law, PanningLaw::energy);
+    EXPECT_NEAR(db(), before, 0.05) << "the louder one is turned down";
+    EXPECT_NEAR(view.world().compare().loweredDb(), louder - before, 0.05);
+    const auto& button = the<juce::Button>(view, "Compare A and B");
+    EXPECT_EQ(button.getButtonText(), "B");
+    key();
+    key();
+    EXPECT_NEAR(db(), before, 0.05) << "again and again";
+    view.world().compare().end();
+    EXPECT_EQ(shown(), '-');
+    EXPECT_NEAR(db(), before, 0.05) << "the end makes nothing louder";
 }
 
-TEST(MixerCompare, ALevelThatIsSetMeanwhileIsMeant) {
-    Compared c;
-    c.key();
-    c.model.change("Gains", [](Mix& mix) {
+TEST_F(Compared, ALevelThatIsSetMeanwhileIsMeant) {
+    key();
+    model.change("Gains", [](Mix& mix) {
         for (Strip& strip : mix.strips) strip.gainDb = 6.0;
     });
-    c.key();
-    c.key(); // B, turned down by 6 dB
-    c.model.change("Level", [](Mix& mix) { mix.levelDb = -40.0; });
-    c.key();
-    c.key();
-    EXPECT_LE(c.model.mix().levelDb, -40.0);
+    key();
+    key(); // B, turned down by 6 dB
+    model.change("Level", [](Mix& mix) { mix.levelDb = -40.0; });
+    key();
+    key();
+    EXPECT_LE(model.mix().levelDb, -40.0);
 }
 
-TEST(MixerCompare, TheWorldStaysAndUndoEndsTheComparison) {
-    Compared c;
-    c.key();
-    c.model.change("Exponent", [](Mix& mix) { mix.exponent = 2.0; });
-    c.model.change("Seed", [](Mix& mix) { mix.seed = 7; });
-    c.key();
-    EXPECT_EQ(c.model.mix().seed, 7u);
-    EXPECT_EQ(c.model.mix().exponent, 1.0);
-    for (int k = 0; k < 4 && c.model.undoManager().canUndo(); ++k) c.model.undoManager().undo();
-    EXPECT_FALSE(c.view.world().compare().isOn());
-    EXPECT_EQ(c.model.mix().exponent, 1.0);
+TEST_F(Compared, TheWorldStaysAndUndoEndsTheComparison) {
+    key();
+    model.change("Exponent", [](Mix& mix) { mix.exponent = 2.0; });
+    model.change("Seed", [](Mix& mix) { mix.seed = 7; });
+    key();
+    EXPECT_EQ(model.mix().seed, 7u);
+    EXPECT_EQ(model.mix().exponent, 1.0);
+    for (int k = 0; k < 4 && model.undoManager().canUndo(); ++k) model.undoManager().undo();
+    EXPECT_FALSE(view.world().compare().isOn());
+    EXPECT_EQ(model.mix().exponent, 1.0);
 }
 
 // A comparison leaves no level lowered, whichever side was the louder one and however often it is changed;

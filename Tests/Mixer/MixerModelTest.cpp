@@ -10,16 +10,18 @@ namespace {
 using namespace test;
 using Kind = RenderControl::Kind;
 
-TEST(MixerModel, PlaysAtOnceAndQuietly) {
+struct PlayingModel : testing::Test {
     MixerModel model{onlyNoDevice(), noDevice};
+};
+
+TEST_F(PlayingModel, PlaysAtOnceAndQuietly) {
     EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
     EXPECT_EQ(model.mix().scene->name, "shake-the-box");
     EXPECT_LE(model.mix().levelDb, -12.0) << "hands are attached";
     EXPECT_TRUE(runUntil([&] { return model.look().session.render.played > 5; }));
 }
 
-TEST(MixerModel, AFifthEnchanterIsAttachedWhileItPlaysStartsQuietlyAndCanBeTakenBack) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(PlayingModel, AFifthEnchanterIsAttachedWhileItPlaysStartsQuietlyAndCanBeTakenBack) {
     ASSERT_TRUE(model.attach(0.5, 0.25));
     EXPECT_EQ(model.mix().count(), 5);
     EXPECT_EQ(model.mix().layout.enchanters.back().label, "E");
@@ -37,8 +39,7 @@ TEST(MixerModel, AFifthEnchanterIsAttachedWhileItPlaysStartsQuietlyAndCanBeTaken
     EXPECT_EQ(model.mix().strips[1].output, 2) << "what plays it goes with it";
 }
 
-TEST(MixerModel, TheLastEnchanterStays) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(PlayingModel, TheLastEnchanterStays) {
     for (int k = 0; k < 5; ++k) model.detach(0);
     ASSERT_EQ(model.mix().count(), 1);
     EXPECT_EQ(model.mix().layout.enchanters[0].label, "D");
@@ -60,14 +61,12 @@ TEST(MixerModel, WhatASessionWasPlayedWithAndTheMixerLacksIsTold) {
     EXPECT_TRUE(lackingOf(session).contains("method, remapping and gain of its own"));
 }
 
-TEST(MixerModel, ASavedSessionIsAsLongAsItWasPlayed) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(PlayingModel, ASavedSessionIsAsLongAsItWasPlayed) {
     ASSERT_TRUE(runUntil([&] { return model.look().sessionNs > 200'000'000; }));
     EXPECT_GT(model.saved().lengthNs, 200'000'000);
 }
 
-TEST(MixerModel, SoloMutesTheOthers) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(PlayingModel, SoloMutesTheOthers) {
     model.change("Solo", [](Mix& mix) { mix.strips[2].isSolo = true; });
     std::vector<int> muted;
     for (const auto& c : model.saved().log.channels)
@@ -78,10 +77,7 @@ TEST(MixerModel, SoloMutesTheOthers) {
 TEST(MixerModel, ATestPulseIsOnItsActuatorAloneInSpaceToo) {
     for (const char* name : {"ring4", "glove5", "sleeve8", "vest16"}) {
         MixerModel model{onlyNoDevice(), noDevice};
-        model.change("Layout", [&](Mix& mix) {
-            mix.layout = presetLayout(name);
-            mix.resizeStrips();
-        });
+        model.change("Layout", [&](Mix& mix) { setLayout(mix, name); });
         for (int j = 0; j < model.mix().count(); ++j) {
             model.strikes().testPulse(j);
             ASSERT_TRUE(runUntil(
@@ -91,13 +87,12 @@ TEST(MixerModel, ATestPulseIsOnItsActuatorAloneInSpaceToo) {
             const CollisionEvent& pulse = log.strikes.back();
             log.panners.back().panner.gainsAt(pulse, gains);
             for (int k = 0; k < model.mix().count(); ++k)
-                EXPECT_NEAR(gains[static_cast<std::size_t>(k)], j == k ? 1.0 : 0.0, 1e-6) << name << j << k;
+                EXPECT_NEAR(nth(gains, k), j == k ? 1.0 : 0.0, 1e-6) << name << j << k;
         }
     }
 }
 
-TEST(MixerModel, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(PlayingModel, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
     model.change("Level", [](Mix& mix) { mix.levelDb = 0.0; });
     model.change("Ceiling of A", [](Mix& mix) { mix.strips[0].ceilingDb = -30.0; });
     // A session that plays already lowers a ceiling in a ramp of 10 ms.
@@ -125,8 +120,7 @@ TEST(MixerModel, ACeilingIsKeptSavedTakenBackAndHeldByTheNextEnchanter) {
     EXPECT_EQ(ceilings().back(), 1.0f);
 }
 
-TEST(MixerModel, AHeldFaderIsOneThingToUndo) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(PlayingModel, AHeldFaderIsOneThingToUndo) {
     for (int k = 0; k < 20; ++k)
         model.change(
             "Gain of A", [k](Mix& mix) { mix.strips[0].gainDb = -0.5 * k; }, k > 0);
@@ -136,8 +130,7 @@ TEST(MixerModel, AHeldFaderIsOneThingToUndo) {
     EXPECT_FALSE(model.undoManager().canUndo());
 }
 
-TEST(MixerModel, BodiesComeGoAndChangeAndAllOfItCanBeUndone) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(PlayingModel, BodiesComeGoAndChangeAndAllOfItCanBeUndone) {
     BodyDescription ball;
     ball.name = "?";
     ball.positionMetres = {3.0, 2.0};
@@ -159,14 +152,12 @@ TEST(MixerModel, BodiesComeGoAndChangeAndAllOfItCanBeUndone) {
     EXPECT_FALSE(model.undoManager().canUndo());
 }
 
-TEST(MixerModel, AThousandEditsLaterEverythingCanBeUndone) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(PlayingModel, AThousandEditsLaterEverythingCanBeUndone) {
     const Mix first = model.mix();
     for (int k = 0; k < 30; ++k) {
         model.attach(0.01 * k, 0.5);
         model.change("Law", [k](Mix& mix) { mix.law = static_cast<PanningLaw>(k % 4); });
-        model.change("Mute",
-                     [k](Mix& mix) { mix.strips[static_cast<std::size_t>(k % 4)].isMuted = k % 2 == 0; });
+        model.change("Mute", [k](Mix& mix) { nth(mix.strips, k % 4).isMuted = k % 2 == 0; });
         model.detach(k % model.mix().count());
     }
     while (model.undoManager().canUndo()) model.undoManager().undo();
@@ -174,9 +165,8 @@ TEST(MixerModel, AThousandEditsLaterEverythingCanBeUndone) {
     EXPECT_EQ(model.mix().layout.enchanters, first.layout.enchanters);
 }
 
-TEST(MixerModel, ARecordingHasAChannelPerEnchanterAndTheEventsOfIt) {
+TEST_F(PlayingModel, ARecordingHasAChannelPerEnchanterAndTheEventsOfIt) {
     TestFolder folder;
-    MixerModel model{onlyNoDevice(), noDevice};
     bool isDone = false;
     model.recording().onEnd = [&](const juce::File&, const juce::String& error) {
         isDone = true;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Messages by OSC at the model: from nobody unless told; they strike, tilt, and move what is shown.
 #include "Live/Sockets/UdpSocket.h"
-#include "Mixer/MixerTesting.h"
 #include "Mixer/Output/OutputTab.h"
 #include "Mixer/Window/MixerWindow.h"
 #include "MixerTesting.h"
@@ -12,41 +11,61 @@ namespace {
 
 using namespace test;
 
-void send(MixerModel& model, const std::string& address, std::vector<NamedValue> values) {
-    auto socket = UdpSocket::connected(model.inputs().status()->address);
-    ASSERT_EQ(socket.error, "");
-    EXPECT_TRUE(socket.value.send(oscPacket(address, {"", std::move(values)})));
-}
-
-const Fact& messagesOf(OutputTab& tab, MixerModel& model) {
-    tab.refresh(model.look());
-    const auto& facts = dynamic_cast<FactList&>(*find(tab, "What follows from it")).facts();
-    return *std::ranges::find(facts, juce::String{"Messages"}, &Fact::name);
-}
-
-TEST(MixerOsc, ListensToNobodyUnlessTold) {
+struct OscOfMixer : testing::Test {
     MixerModel model{onlyNoDevice(), noDevice};
+
+    void listen() { ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), ""); }
+    UdpSocket sender() {
+        auto socket = UdpSocket::connected(model.inputs().status()->address);
+        EXPECT_EQ(socket.error, "");
+        return std::move(socket.value);
+    }
+    void send(const std::string& address, std::vector<NamedValue> values) {
+        EXPECT_TRUE(sender().send(oscPacket(address, {"", std::move(values)})));
+    }
+    auto counts() { return model.inputs().status()->counts; }
+    /// Whether such a gravity has come to the world.
+    bool isTiltedTo(bool (*is)(double y)) {
+        return runUntil([&] {
+            const auto& takes = model.saved().log.takes;
+            return !takes.empty() && std::ranges::any_of(takes.back().inputs, [&](const LiveInput& input) {
+                const auto* gravity = std::get_if<GravityAction>(&input.action);
+                return gravity != nullptr && is(gravity->metresPerSecond2.y);
+            });
+        });
+    }
+};
+
+/// Of the page "Output", which shows what comes.
+struct OscInTab : OscOfMixer {
+    OutputTab tab{model};
+
+    const Fact& messages() {
+        tab.refresh(model.look());
+        const auto& facts = the<FactList>(tab, "What follows from it").facts();
+        return *std::ranges::find(facts, juce::String{"Messages"}, &Fact::name);
+    }
+};
+
+TEST_F(OscInTab, ListensToNobodyUnlessTold) {
     EXPECT_EQ(model.inputs().choice().use, OscUse::off);
     EXPECT_FALSE(model.inputs().status().has_value());
-    OutputTab tab{model};
-    EXPECT_EQ(messagesOf(tab, model).value, "none");
+    EXPECT_EQ(messages().value, "none");
     EXPECT_EQ(model.inputs().use({OscUse::thisComputer}), "");
     EXPECT_TRUE(model.inputs().status()->address.starts_with("127.0.0.1:"));
     EXPECT_EQ(model.inputs().use({OscUse::off}), "");
     EXPECT_FALSE(model.inputs().status().has_value());
 }
 
-TEST(MixerOsc, IsSwitchedInTheOutputTab) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    OutputTab tab{model};
-    auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "OSC"));
+TEST_F(OscInTab, IsSwitchedInTheOutputTab) {
+    auto& box = the<juce::ComboBox>(tab, "OSC");
     EXPECT_EQ(box.getText(), "nobody");
     box.setSelectedItemIndex(1, juce::sendNotificationSync);
     EXPECT_EQ(model.inputs().choice().use, OscUse::thisComputer);
-    send(model, "/physvib/strike", {{"frequency_hz", 200.0}, {"decay_per_s", 30.0}});
-    send(model, "/physvib/strike", {{"level", 2.0}});
-    ASSERT_TRUE(runUntil([&] { return model.inputs().status()->counts.messages == 2; }));
-    const Fact& told = messagesOf(tab, model);
+    send("/physvib/strike", {{"frequency_hz", 200.0}, {"decay_per_s", 30.0}});
+    send("/physvib/strike", {{"level", 2.0}});
+    ASSERT_TRUE(runUntil([&] { return counts().messages == 2; }));
+    const Fact& told = messages();
     EXPECT_TRUE(
         told.value.startsWith(utf8(model.inputs().status()->address) + ": 1 good, 1 bad, 0 late; 127.0.0.1:"))
         << told.value;
@@ -55,11 +74,10 @@ TEST(MixerOsc, IsSwitchedInTheOutputTab) {
     EXPECT_EQ(model.inputs().choice().use, OscUse::off);
 }
 
-TEST(MixerOsc, APhonesAddressIsShownAsTextAndAsACode) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(OscOfMixer, APhonesAddressIsShownAsTextAndAsACode) {
     MixerView view{model};
     view.tabs().choose("Output");
-    dynamic_cast<juce::ComboBox&>(*find(view, "OSC")).setSelectedItemIndex(2, juce::sendNotificationSync);
+    the<juce::ComboBox>(view, "OSC").setSelectedItemIndex(2, juce::sendNotificationSync);
     ASSERT_NE(view.question(), nullptr) << model.trouble();
     EXPECT_TRUE(view.question()->words().contains(":9")) << view.question()->words();
     EXPECT_TRUE(view.question()->picture().isValid());
@@ -67,12 +85,11 @@ TEST(MixerOsc, APhonesAddressIsShownAsTextAndAsACode) {
     EXPECT_TRUE(runUntil([&] { return view.question() == nullptr; }, 1.0));
 }
 
-TEST(MixerOsc, WhatStrikesIsFeltAndSaved) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), "");
+TEST_F(OscOfMixer, WhatStrikesIsFeltAndSaved) {
+    listen();
     model.look();
     const auto edits = model.edits();
-    send(model, "/physvib/strike", {{"frequency_hz", 123.0}, {"decay_per_s", 30.0}});
+    send("/physvib/strike", {{"frequency_hz", 123.0}, {"decay_per_s", 30.0}});
     EXPECT_TRUE(runUntil([&] {
         return std::ranges::any_of(model.look().hits,
                                    [](const auto& hit) { return hit.frequencyHz == 123.0; });
@@ -81,113 +98,93 @@ TEST(MixerOsc, WhatStrikesIsFeltAndSaved) {
     ASSERT_EQ(model.saved().log.strikes.size(), 1U);
 }
 
-TEST(MixerOsc, StripsAndSilenceAreMovedInTheMixer) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), "");
-    send(model, "/physvib/gain", {{"channel", 2.0}, {"value", 0.5}});
-    send(model, "/physvib/mute", {{"channel", 1.0}, {"on", 1.0}});
-    send(model, "/physvib/silence", {{"on", 1.0}});
-    send(model, "/phone/gravity", {{"", 0.0}});
+TEST_F(OscOfMixer, StripsAndSilenceAreMovedInTheMixer) {
+    listen();
+    send("/physvib/gain", {{"channel", 2.0}, {"value", 0.5}});
+    send("/physvib/mute", {{"channel", 1.0}, {"on", 1.0}});
+    send("/physvib/silence", {{"on", 1.0}});
+    send("/phone/gravity", {{"", 0.0}});
     EXPECT_TRUE(runUntil([&] { return model.isSilent(); }));
     EXPECT_NEAR(model.mix().strips[1].gainDb, -6.02, 0.01);
     EXPECT_TRUE(model.mix().strips[0].isMuted);
     model.undoManager().undo();
     EXPECT_EQ(model.mix().strips[1].gainDb, 0.0);
-    send(model, "/physvib/delay", {{"channel", 1.0}, {"seconds", 0.01}});
-    send(model, "/physvib/mute", {{"channel", 9.0}, {"on", 1.0}});
-    EXPECT_TRUE(runUntil([&] { return model.inputs().status()->counts.refused == 3; }));
+    send("/physvib/delay", {{"channel", 1.0}, {"seconds", 0.01}});
+    send("/physvib/mute", {{"channel", 9.0}, {"on", 1.0}});
+    EXPECT_TRUE(runUntil([&] { return counts().refused == 3; }));
 }
 
 // The window's thread does nothing here: what is for it waits, and is refused at last.
-TEST(MixerOsc, SilenceNeitherWaitsForTheWindowNorNeedsRoom) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), "");
+TEST_F(OscOfMixer, SilenceNeitherWaitsForTheWindowNorNeedsRoom) {
+    listen();
     const auto comes = [&](auto isTrue) {
         for (int k = 0; k < 6000 && !isTrue(); ++k)
             std::this_thread::sleep_for(std::chrono::milliseconds{10});
         return isTrue();
     };
-    auto socket = UdpSocket::connected(model.inputs().status()->address);
+    auto socket = sender();
     const auto mute = oscPacket("/physvib/mute", {"", {{"channel", 1.0}, {"on", 1.0}}});
     for (std::uint64_t k = 0; k < 1200; k += 100) { // the system's buffer is small
-        for (int one = 0; one < 100; ++one) socket.value.send(mute);
-        ASSERT_TRUE(comes([&] { return model.inputs().status()->counts.messages == k + 100; }));
+        for (int one = 0; one < 100; ++one) socket.send(mute);
+        ASSERT_TRUE(comes([&] { return counts().messages == k + 100; }));
     }
-    ASSERT_EQ(model.inputs().status()->counts.refused, 200U);
-    EXPECT_EQ(
-        model.inputs().status()->counts.fault.substr(model.inputs().status()->counts.fault.find(": ") + 2),
-        "too many inputs at once");
-    EXPECT_TRUE(socket.value.send(oscPacket("/physvib/silence", {"", {{"on", 1.0}}})));
+    ASSERT_EQ(counts().refused, 200U);
+    EXPECT_EQ(counts().fault.substr(counts().fault.find(": ") + 2), "too many inputs at once");
+    EXPECT_TRUE(socket.send(oscPacket("/physvib/silence", {"", {{"on", 1.0}}})));
     EXPECT_TRUE(comes([&] { return model.output().isSilent(); }));
-    ASSERT_TRUE(comes([&] { return model.inputs().status()->counts.messages == 1201; }));
-    EXPECT_EQ(model.inputs().status()->counts.refused, 200U) << "silence is never refused for want of room";
+    ASSERT_TRUE(comes([&] { return counts().messages == 1201; }));
+    EXPECT_EQ(counts().refused, 200U) << "silence is never refused for want of room";
     EXPECT_FALSE(model.isSilent()) << "not yet shown";
     EXPECT_TRUE(runUntil([&] { return model.look(), model.isSilent(); }));
 }
 
-TEST(MixerOsc, WhatTheMixerRefusesIsReportedToItsSender) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), "");
-    auto socket = UdpSocket::connected(model.inputs().status()->address);
+TEST_F(OscOfMixer, WhatTheMixerRefusesIsReportedToItsSender) {
+    listen();
+    auto socket = sender();
     using namespace std::string_literals;
-    ASSERT_TRUE(socket.value.send(
+    ASSERT_TRUE(socket.send(
         oscPacket("/physvib/impulse", {"", {{"body", "nobody"s}, {"impulse_ns", std::vector{0.0, 1.0}}}})));
-    ASSERT_TRUE(runUntil([&] { return socket.value.wait(0); }));
-    const auto error = readOscPacket(*socket.value.receive()).value.at(0);
+    ASSERT_TRUE(runUntil([&] { return socket.wait(0); }));
+    const auto error = readOscPacket(*socket.receive()).value.at(0);
     EXPECT_EQ(error.address, oscErrorAddress);
     EXPECT_EQ(std::get<std::string>(error.values.at(0)), "/physvib/impulse");
     EXPECT_NE(std::get<std::string>(error.values.at(1)).find("nobody"), std::string::npos);
 }
 
-TEST(MixerOsc, WhatAPersonSilencedIsLiftedAtTheMachineAlone) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), "");
-    const auto taken = [&](std::uint64_t messages) {
-        return runUntil([&] {
-            return model.inputs().status()->counts.messages == messages &&
-                   model.inputs().status()->counts.refused == messages - 1;
-        });
-    };
+TEST_F(OscOfMixer, WhatAPersonSilencedIsLiftedAtTheMachineAlone) {
+    listen();
     model.setSilent(true);
-    send(model, "/physvib/silence", {{"on", 1.0}});
-    ASSERT_TRUE(runUntil([&] { return model.inputs().status()->counts.messages == 1; }));
-    send(model, "/physvib/silence", {{"on", 0.0}});
-    EXPECT_TRUE(taken(2)) << "that it did not help is said";
-    EXPECT_EQ(model.inputs().status()->counts.fault, "silence: still asked for at the machine");
+    send("/physvib/silence", {{"on", 1.0}});
+    ASSERT_TRUE(runUntil([&] { return counts().messages == 1; }));
+    send("/physvib/silence", {{"on", 0.0}});
+    EXPECT_TRUE(runUntil([&] { return counts().messages == 2 && counts().refused == 1; }))
+        << "that it did not help is said";
+    EXPECT_EQ(counts().fault, "silence: still asked for at the machine");
     EXPECT_TRUE(model.isSilent());
     EXPECT_TRUE(model.output().isSilent());
     model.setSilent(false);
     EXPECT_FALSE(model.output().isSilent());
-    send(model, "/physvib/silence", {{"on", 1.0}});
+    send("/physvib/silence", {{"on", 1.0}});
     EXPECT_TRUE(runUntil([&] { return model.isSilent(); }));
     model.setSilent(false);
     EXPECT_FALSE(model.isSilent()) << "a person lifts what OSC asked for as well";
     EXPECT_FALSE(model.output().isSilent());
 }
 
-TEST(MixerOsc, APhoneTiltsTheWorld) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), "");
-    auto socket = UdpSocket::connected(model.inputs().status()->address);
+TEST_F(OscOfMixer, APhoneTiltsTheWorld) {
+    listen();
+    auto socket = sender();
     using namespace std::string_literals;
     const auto upsideDown = "/accelerometer\0\0,fff\0\0\0\0\0\0\0\0\xc1\x1c\xf5\xc3\0\0\0\0"s; // y: -9.81
-    EXPECT_TRUE(socket.value.send({upsideDown.data(), upsideDown.size()}));
-    EXPECT_TRUE(runUntil([&] {
-        const auto& takes = model.saved().log.takes;
-        return !takes.empty() && std::ranges::any_of(takes.back().inputs, [](const LiveInput& input) {
-            const auto* gravity = std::get_if<GravityAction>(&input.action);
-            return gravity != nullptr && gravity->metresPerSecond2.y > 9.8;
-        });
-    }));
-    EXPECT_EQ(model.inputs().status()->counts.fault, "");
+    EXPECT_TRUE(socket.send({upsideDown.data(), upsideDown.size()}));
+    EXPECT_TRUE(isTiltedTo([](double y) { return y > 9.8; }));
+    EXPECT_EQ(counts().fault, "");
 }
 
-TEST(MixerOsc, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
-    MixerModel model{onlyNoDevice(), noDevice};
+TEST_F(OscInTab, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
     auto receiver = UdpSocket::listening("127.0.0.1", 0);
     ASSERT_EQ(receiver.error, "");
-    OutputTab tab{model};
-    auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "Hits by OSC"));
+    auto& box = the<juce::ComboBox>(tab, "Hits by OSC");
     EXPECT_EQ(box.getText(), "nobody");
     tab.sendHitsTo("127.0.0.1:" + juce::String{receiver.value.port()});
     EXPECT_EQ(model.trouble(), "");
@@ -209,7 +206,7 @@ TEST(MixerOsc, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
     EXPECT_TRUE(std::ranges::any_of(model.look().hits, [hz](const CollisionEvent& e) {
         return static_cast<float>(e.frequencyHz) == hz;
     })) << "what was told is still shown";
-    EXPECT_TRUE(messagesOf(tab, model).value.startsWith("to 127.0.0.1:")) << messagesOf(tab, model).value;
+    EXPECT_TRUE(messages().value.startsWith("to 127.0.0.1:")) << messages().value;
     box.setSelectedItemIndex(0, juce::sendNotificationSync);
     EXPECT_FALSE(model.inputs().status().has_value());
     box.setSelectedItemIndex(1, juce::sendNotificationSync);
@@ -217,41 +214,29 @@ TEST(MixerOsc, HitsAreToldToWhomTheyAreWantedAsTheyAreFelt) {
         << "it stays in the list";
 }
 
-TEST(MixerOsc, AWrongReceiverIsRefusedAndAllIsAsBefore) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    ASSERT_EQ(model.inputs().use({OscUse::thisComputer}), "");
-    OutputTab tab{model};
-    auto& box = dynamic_cast<juce::ComboBox&>(*find(tab, "Hits by OSC"));
+TEST_F(OscInTab, AWrongReceiverIsRefusedAndAllIsAsBefore) {
+    listen();
+    auto& box = the<juce::ComboBox>(tab, "Hits by OSC");
     tab.sendHitsTo("my laptop");
     EXPECT_EQ(model.trouble(), "Hits by OSC: expected HOST:PORT, found \"my laptop\"");
     EXPECT_EQ(box.getText(), "nobody");
     EXPECT_EQ(model.inputs().choice(), OscChoice{OscUse::thisComputer});
-    send(model, "/physvib/silence", {{"on", 1.0}});
+    send("/physvib/silence", {{"on", 1.0}});
     EXPECT_TRUE(runUntil([&] { return model.isSilent(); }));
 }
 
-TEST(MixerOsc, APhoneMayBeHeldOnItsSide) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    OutputTab tab{model};
-    dynamic_cast<juce::ComboBox&>(*find(tab, "OSC")).setSelectedItemIndex(1, juce::sendNotificationSync);
-    dynamic_cast<juce::ComboBox&>(*find(tab, "Phone")).setSelectedItemIndex(1, juce::sendNotificationSync);
+TEST_F(OscInTab, APhoneMayBeHeldOnItsSide) {
+    the<juce::ComboBox>(tab, "OSC").setSelectedItemIndex(1, juce::sendNotificationSync);
+    the<juce::ComboBox>(tab, "Phone").setSelectedItemIndex(1, juce::sendNotificationSync);
     EXPECT_EQ(model.inputs().choice(), (OscChoice{OscUse::thisComputer, {}, 90.0}));
-    auto socket = UdpSocket::connected(model.inputs().status()->address);
+    auto socket = sender();
     using namespace std::string_literals;
     const auto topToTheLeft = "/accelerometer\0\0,fff\0\0\0\0\x41\x1c\xf5\xc3\0\0\0\0\0\0\0\0"s; // x: 9.81
-    EXPECT_TRUE(socket.value.send({topToTheLeft.data(), topToTheLeft.size()}));
-    EXPECT_TRUE(runUntil([&] {
-        const auto& takes = model.saved().log.takes;
-        return !takes.empty() && std::ranges::any_of(takes.back().inputs, [](const LiveInput& input) {
-            const auto* gravity = std::get_if<GravityAction>(&input.action);
-            return gravity != nullptr && gravity->metresPerSecond2.y < -9.8;
-        });
-    })) << "down is down";
+    EXPECT_TRUE(socket.send({topToTheLeft.data(), topToTheLeft.size()}));
+    EXPECT_TRUE(isTiltedTo([](double y) { return y < -9.8; })) << "down is down";
 }
 
 // A game controller that is chosen in the mixer plays, is unplugged and plugged in again: each is seen.
-
-using namespace test;
 
 TEST(MixerPad, IsChosenInTheOutputTabPlaysAndIsFollowedWhenItGoes) {
     GamePads pads; // before the virtual one
@@ -303,8 +288,8 @@ TEST(MixerPad, OneThatIsNotPluggedInSaysSoAndDelaysNothingUntilItComes) {
     model.messages().shown().act.run();
     ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.size() == 1; }));
     ASSERT_TRUE(runUntil([&] {
-        return find(window.view(), "Board state")->getDescription().contains("No controller");
-    })) << find(window.view(), "Board state")->getDescription();
+        return the(window.view(), "Board state").getDescription().contains("No controller");
+    })) << the(window.view(), "Board state").getDescription();
     EXPECT_EQ(list()->getText(), "No device + Game controller");
     EXPECT_TRUE(has("Game controller: none there yet, in use"));
     EXPECT_DOUBLE_EQ(latency(), before);

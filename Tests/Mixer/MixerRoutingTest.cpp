@@ -32,7 +32,7 @@ struct RoutedModel {
         EXPECT_TRUE(runUntil([&] { return hear(), model.session().status().render.played > played; }));
         for (int k = 0; k < 60; ++k) hear();
         for (int k = 0; k < 400; ++k) hands.play(64); // it rings out
-        if (noise >= 0) peaks[static_cast<std::size_t>(noise)] = 0.0f;
+        if (noise >= 0) nth(peaks, noise) = 0.0f;
         const auto loudest = std::ranges::max_element(peaks);
         if (*loudest < 1e-3f) return -1;
         const auto sounds = std::ranges::count_if(peaks, [&](float p) { return p > 0.01f * *loudest; });
@@ -44,7 +44,7 @@ struct RoutedModel {
     }
     void expectAsShown(const std::string& after) {
         for (int j = 0; j < model.mix().count(); ++j) {
-            const int shown = model.mix().strips[static_cast<std::size_t>(j)].output;
+            const int shown = nth(model.mix().strips, j).output;
             EXPECT_EQ(heardOf(j), shown < hands.outputs ? shown : -1) << after << ": strip " << j;
         }
     }
@@ -59,6 +59,8 @@ struct RoutedModel {
     MixerModel model;
 };
 
+struct RoutedOutputs : testing::Test, RoutedModel {};
+
 void setOutputs(Mix& mix, const std::vector<int>& outputs) {
     for (std::size_t j = 0; j < mix.strips.size(); ++j) mix.strips[j].output = outputs[j];
 }
@@ -71,61 +73,58 @@ SavedSession opened(SavedSession session, const std::vector<int>& outputs) {
     return std::move(read.value);
 }
 
-TEST(MixerRouting, EveryStripsTestOnEveryOutputIsHeardWhereTheStripSays) {
-    RoutedModel routed;
+TEST_F(RoutedOutputs, EveryStripsTestOnEveryOutputIsHeardWhereTheStripSays) {
     for (std::size_t j = 0; j < 4; ++j)
-        for (int output = 0; output < routed.hands.outputs; ++output) {
-            routed.give(j, output);
-            ASSERT_EQ(routed.model.mix().strips[j].output, output);
-            routed.expectAsShown("strip " + std::to_string(j) + " to output " + std::to_string(output));
+        for (int output = 0; output < hands.outputs; ++output) {
+            give(j, output);
+            ASSERT_EQ(model.mix().strips[j].output, output);
+            expectAsShown("strip " + std::to_string(j) + " to output " + std::to_string(output));
         }
-    EXPECT_TRUE(routed.model.trouble().isEmpty()) << routed.model.trouble();
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
 }
 
-TEST(MixerRouting, AnOutputThatAnotherHasIsExchanged) {
-    RoutedModel routed;
-    routed.give(1, 0);
-    EXPECT_EQ(routed.outputs(), (std::vector{1, 0, 2, 3}));
-    routed.give(1, 1);
-    routed.give(0, 2); // A, B for C, D
-    routed.give(1, 3);
-    EXPECT_EQ(routed.outputs(), (std::vector{2, 3, 0, 1}));
-    routed.expectAsShown("exchanged");
-    routed.model.undoManager().undo();
-    EXPECT_EQ(routed.outputs(), (std::vector{2, 1, 0, 3})) << "one act, one step back";
-    routed.give(2, -1);
-    EXPECT_EQ(routed.outputs(), (std::vector{2, 1, -1, 3}));
-    routed.give(2, 3);
-    EXPECT_EQ(routed.outputs(), (std::vector{2, 1, 3, -1})) << "who had none gives none";
-    routed.expectAsShown("taken");
-    EXPECT_TRUE(routed.model.trouble().isEmpty()) << routed.model.trouble();
+TEST_F(RoutedOutputs, AnOutputThatAnotherHasIsExchanged) {
+    give(1, 0);
+    EXPECT_EQ(outputs(), (std::vector{1, 0, 2, 3}));
+    give(1, 1);
+    give(0, 2); // A, B for C, D
+    give(1, 3);
+    EXPECT_EQ(outputs(), (std::vector{2, 3, 0, 1}));
+    expectAsShown("exchanged");
+    model.undoManager().undo();
+    EXPECT_EQ(outputs(), (std::vector{2, 1, 0, 3})) << "one act, one step back";
+    give(2, -1);
+    EXPECT_EQ(outputs(), (std::vector{2, 1, -1, 3}));
+    give(2, 3);
+    EXPECT_EQ(outputs(), (std::vector{2, 1, 3, -1})) << "who had none gives none";
+    expectAsShown("taken");
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
 }
 
-TEST(MixerRouting, ARefusedOutputIsNeitherShownNorSaved) {
-    RoutedModel routed;
+TEST_F(RoutedOutputs, ARefusedOutputIsNeitherShownNorSaved) {
     ListeningSettings ofStudy;
-    ofStudy.noise = {routed.noise = 6};
-    ASSERT_EQ(routed.model.device().listening().hear(ofStudy), "");
-    routed.give(0, 6);
-    EXPECT_TRUE(routed.model.trouble().contains("output 7")) << routed.model.trouble();
-    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 2, 3}));
-    EXPECT_EQ(routed.model.saved().mix->strips[0].output, 0);
-    EXPECT_FALSE(routed.model.undoManager().canUndo()) << "nothing to take back";
-    EXPECT_EQ(routed.model.edits(), 0U) << "nothing to save";
-    routed.expectAsShown("refused");
-    routed.model.change("Output and level", [](Mix& mix) {
+    ofStudy.noise = {noise = 6};
+    ASSERT_EQ(model.device().listening().hear(ofStudy), "");
+    give(0, 6);
+    EXPECT_TRUE(model.trouble().contains("output 7")) << model.trouble();
+    EXPECT_EQ(outputs(), (std::vector{0, 1, 2, 3}));
+    EXPECT_EQ(model.saved().mix->strips[0].output, 0);
+    EXPECT_FALSE(model.undoManager().canUndo()) << "nothing to take back";
+    EXPECT_EQ(model.edits(), 0U) << "nothing to save";
+    expectAsShown("refused");
+    model.change("Output and level", [](Mix& mix) {
         giveOutput(mix.strips, 0, 6);
         mix.levelDb = -30.0;
     });
-    EXPECT_EQ(routed.model.undoManager().getUndoDescription(), "Output and level") << "half of it was done";
-    EXPECT_EQ(routed.model.mix().levelDb, -30.0);
-    ASSERT_EQ(routed.model.device().listening().hear({}), ""); // the study ends
-    routed.give(0, 6);
-    EXPECT_EQ(routed.outputs(), (std::vector{6, 1, 2, 3}));
-    routed.model.undoManager().undo();
-    ASSERT_EQ(routed.model.device().listening().hear(ofStudy), "");
-    routed.model.undoManager().redo();
-    EXPECT_TRUE(routed.model.undoManager().canUndo()) << "a redo that is refused forgets no step";
+    EXPECT_EQ(model.undoManager().getUndoDescription(), "Output and level") << "half of it was done";
+    EXPECT_EQ(model.mix().levelDb, -30.0);
+    ASSERT_EQ(model.device().listening().hear({}), ""); // the study ends
+    give(0, 6);
+    EXPECT_EQ(outputs(), (std::vector{6, 1, 2, 3}));
+    model.undoManager().undo();
+    ASSERT_EQ(model.device().listening().hear(ofStudy), "");
+    model.undoManager().redo();
+    EXPECT_TRUE(model.undoManager().canUndo()) << "a redo that is refused forgets no step";
 }
 
 TEST(MixerRouting, ASessionWithAConflictPlaysWhatItCanAndHealsByOneClick) {
@@ -137,15 +136,14 @@ TEST(MixerRouting, ASessionWithAConflictPlaysWhatItCanAndHealsByOneClick) {
     routed.expectAsShown("opened");
     EXPECT_EQ(routed.model.trouble(), "B, D have no outputs: other actuators have them");
     MixerView view{routed.model};
-    auto* button = dynamic_cast<juce::Button*>(find(view, "Give free outputs"));
-    ASSERT_NE(button, nullptr);
-    EXPECT_TRUE(button->isVisible());
-    button->onClick();
+    auto& button = the<juce::Button>(view, "Give free outputs");
+    EXPECT_TRUE(button.isVisible());
+    button.onClick();
     EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 2, 3}));
     routed.expectAsShown("healed");
     routed.model.dispatchPendingMessages();
     EXPECT_TRUE(routed.model.trouble().isEmpty()) << routed.model.trouble();
-    EXPECT_FALSE(button->isVisible());
+    EXPECT_FALSE(button.isVisible());
 }
 
 TEST(MixerRouting, FreeOutputsAreNeitherTheMonitorsNorTheMarkers) {
@@ -178,10 +176,7 @@ TEST(MixerRouting, NewActuatorsAreNoLouderThanTheQuietest) {
         mix.strips[1].gainDb = -30.0;
         mix.strips[2].gainDb = leastStripDb; // silence is no level
     });
-    model.change("Preset", [](Mix& mix) {
-        mix.layout = presetLayout("vest16");
-        mix.resizeStrips();
-    });
+    model.change("Preset", [](Mix& mix) { setLayout(mix, "vest16"); });
     ASSERT_TRUE(model.attach(0.5, 0.5));
     for (std::size_t j = 4; j < 17; ++j) EXPECT_EQ(model.mix().strips[j].gainDb, -30.0) << j;
     EXPECT_EQ(model.mix().strips[0].gainDb, 0.0);
@@ -224,8 +219,7 @@ juce::String shownOutput(MixerView& view, MixerModel& model, const juce::String&
 TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
     RoutedModel routed{[] {
         Mix mix = MixerModel::firstMix();
-        mix.layout = presetLayout("phone2");
-        mix.resizeStrips();
+        setLayout(mix, "phone2");
         return mix;
     }()};
     MixerModel& model = routed.model;
@@ -260,10 +254,7 @@ TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
     EXPECT_FALSE(runUntil([&] { return model.look().meters.peaks[2] > 0.0f; }, 0.5));
     routed.expectAsShown("attached");
     model.report({});
-    model.change("Preset", [](Mix& mix) {
-        mix.layout = presetLayout("phone4");
-        mix.resizeStrips();
-    });
+    model.change("Preset", [](Mix& mix) { setLayout(mix, "phone4"); });
     EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1, -1}));
     EXPECT_EQ(model.output().channelMap(), (std::vector{0, 1, -1, -1}));
     EXPECT_EQ(model.trouble(), "D has no output: headphones have two, L and R");
@@ -277,16 +268,15 @@ TEST(Headphones, TheStripsSayLAndRAndAThirdActuatorIsToldWhileTwoPlayOn) {
     routed.expectAsShown("after them");
 }
 
-TEST(Headphones, ThoseOfAFourActuatorMixerAreToldAndTheLevelIsLow) {
-    RoutedModel routed;
-    routed.model.change("Loud", [](Mix& mix) { mix.levelDb = -3.0; });
-    ASSERT_EQ(useHeadphones(routed.model, {.name = "Fake:hands", .monitor = {4, 5}, .marker = 1}), "");
-    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1, -1}));
-    EXPECT_EQ(routed.model.trouble(), "C, D have no output: headphones have two, L and R");
-    EXPECT_EQ(routed.model.mix().levelDb, safeContactDb);
-    EXPECT_TRUE(routed.model.device().choice().monitor.empty()) << "A and B are heard in its place";
-    EXPECT_EQ(routed.model.device().choice().marker, -1);
-    routed.expectAsShown("headphones");
+TEST_F(RoutedOutputs, ThoseOfAFourActuatorMixerAreToldAndTheLevelIsLow) {
+    model.change("Loud", [](Mix& mix) { mix.levelDb = -3.0; });
+    ASSERT_EQ(useHeadphones(model, {.name = "Fake:hands", .monitor = {4, 5}, .marker = 1}), "");
+    EXPECT_EQ(outputs(), (std::vector{0, 1, -1, -1}));
+    EXPECT_EQ(model.trouble(), "C, D have no output: headphones have two, L and R");
+    EXPECT_EQ(model.mix().levelDb, safeContactDb);
+    EXPECT_TRUE(model.device().choice().monitor.empty()) << "A and B are heard in its place";
+    EXPECT_EQ(model.device().choice().marker, -1);
+    expectAsShown("headphones");
 }
 
 TEST(Headphones, ThatAreGoneAreHeardByNobodyAndWhoHasNoEarStaysStruckOut) {
@@ -295,7 +285,7 @@ TEST(Headphones, ThatAreGoneAreHeardByNobodyAndWhoHasNoEarStaysStruckOut) {
     MixerView view{model};
     view.setSize(1024, 700);
     view.tabs().choose("Output");
-    const auto& facts = dynamic_cast<FactList&>(*find(view, "What follows from it"));
+    const auto& facts = the<FactList>(view, "What follows from it");
     ASSERT_EQ(useHeadphones(model, model.device().choice()), "");
     const auto heard = [&] {
         view.refresh();
@@ -313,33 +303,30 @@ TEST(Headphones, ThatAreGoneAreHeardByNobodyAndWhoHasNoEarStaysStruckOut) {
     EXPECT_FALSE(model.device().isPlayed(2));
 }
 
-TEST(Headphones, GiveTheOutputsOfBeforeBackAndTakeTheirMessageAlong) {
-    RoutedModel routed;
-    MixerModel& model = routed.model;
-    routed.give(0, 5);
-    routed.give(3, -1);
-    const auto before = routed.outputs();
+TEST_F(RoutedOutputs, GiveTheOutputsOfBeforeBackAndTakeTheirMessageAlong) {
+    give(0, 5);
+    give(3, -1);
+    const auto before = outputs();
     DeviceChoice choice = model.device().choice();
     ASSERT_EQ(useHeadphones(model, choice), "");
     ASSERT_EQ(useHeadphones(model, model.device().choice()), "") << "again";
-    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, -1, -1}));
+    EXPECT_EQ(outputs(), (std::vector{0, 1, -1, -1}));
     EXPECT_TRUE(model.trouble().contains("headphones have two"));
     ASSERT_EQ(model.open(choice), "");
-    EXPECT_EQ(routed.outputs(), before);
+    EXPECT_EQ(outputs(), before);
     EXPECT_EQ(model.trouble(), "") << "no headphones are there";
     EXPECT_EQ(model.mix().levelDb, safeContactDb) << "nothing is louder by itself";
-    routed.expectAsShown("back");
+    expectAsShown("back");
     ASSERT_EQ(useHeadphones(model, choice), "");
-    routed.give(2, 7); // a choice meanwhile stays
+    give(2, 7); // a choice meanwhile stays
     ASSERT_EQ(model.open(choice), "");
-    EXPECT_EQ(routed.outputs(), (std::vector{5, 1, 7, -1}));
+    EXPECT_EQ(outputs(), (std::vector{5, 1, 7, -1}));
 }
 
 TEST(MixerRouting, ANewActuatorLeavesTheMonitorAndTheMarkerWhatTheyUse) {
     FakeInterface hands;
     Mix mix = MixerModel::firstMix();
-    mix.layout = presetLayout("phone2");
-    mix.resizeStrips();
+    setLayout(mix, "phone2");
     setOutputs(mix, {2, 3});
     MixerModel model{fakeDrivers({&hands}), {.name = "Fake:hands", .monitor = {0, 1}, .marker = 4}, mix};
     MixerView view{model};
@@ -348,30 +335,28 @@ TEST(MixerRouting, ANewActuatorLeavesTheMonitorAndTheMarkerWhatTheyUse) {
     EXPECT_EQ(model.device().listening().settings().contacts, (std::vector{0, 1})) << "both ears";
     EXPECT_EQ(model.device().listening().settings().marks, std::vector{4});
     model.dispatchPendingMessages();
-    const auto* list = dynamic_cast<juce::ComboBox*>(find(view, "Output of C"));
-    ASSERT_NE(list, nullptr);
+    const auto& list = the<juce::ComboBox>(view, "Output of C");
     for (int k = 0; k < 8; ++k)
-        EXPECT_EQ(list->isItemEnabled(k + 2), k != 0 && k != 1 && k != 4) << list->getItemText(k + 1);
-    EXPECT_EQ(list->getItemText(1), "out 1 (monitor)");
+        EXPECT_EQ(list.isItemEnabled(k + 2), k != 0 && k != 1 && k != 4) << list.getItemText(k + 1);
+    EXPECT_EQ(list.getItemText(1), "out 1 (monitor)");
 }
 
-TEST(MixerRouting, WhatIsChosenInAListIsWhatPlays) {
-    RoutedModel routed;
-    MixerView view{routed.model};
-    routed.model.dispatchPendingMessages();
+TEST_F(RoutedOutputs, WhatIsChosenInAListIsWhatPlays) {
+    MixerView view{model};
+    model.dispatchPendingMessages();
     view.refresh();
     chooseIn(view, "Output of C", "out 7");
-    EXPECT_EQ(routed.outputs(), (std::vector{0, 1, 6, 3}));
+    EXPECT_EQ(outputs(), (std::vector{0, 1, 6, 3}));
     chooseIn(view, "Output of B", "none");
-    EXPECT_EQ(routed.outputs(), (std::vector{0, -1, 6, 3}));
-    routed.expectAsShown("chosen");
+    EXPECT_EQ(outputs(), (std::vector{0, -1, 6, 3}));
+    expectAsShown("chosen");
     view.tabs().choose("Output");
     view.refresh();
     chooseIn(view, "Marks", "output 6");
-    EXPECT_EQ(routed.model.device().choice().marker, 5);
+    EXPECT_EQ(model.device().choice().marker, 5);
     chooseIn(view, "Marks", "none");
-    EXPECT_EQ(routed.model.device().choice().marker, -1);
-    EXPECT_TRUE(routed.model.trouble().isEmpty()) << routed.model.trouble();
+    EXPECT_EQ(model.device().choice().marker, -1);
+    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
 }
 
 TEST(MixerRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
@@ -380,12 +365,12 @@ TEST(MixerRouting, WhatTheOutputPageSaysOfMonitorAndOutputsIsWhatPlays) {
     MixerView view{model};
     const auto monitor = [&] {
         model.dispatchPendingMessages();
-        return dynamic_cast<juce::ComboBox&>(*find(view, "Monitor")).getText();
+        return the<juce::ComboBox>(view, "Monitor").getText();
     };
     const auto says = [&](const juce::String& words) {
         view.tabs().choose("Output");
         view.refresh();
-        const auto facts = find(view, "What follows from it")->getDescription();
+        const auto facts = the(view, "What follows from it").getDescription();
         EXPECT_TRUE(facts.contains(words)) << facts;
     };
     says("Actuators: 4 of 4 have an output there");
@@ -413,11 +398,11 @@ TEST(MixerRouting, WithoutADeviceNoOutputIsMissedAndNoneIsSaidToBeThere) {
     for (int k = 0; k < 3; ++k) EXPECT_EQ(model.rig().output().maintain(), "");
     view.tabs().choose("Output");
     view.refresh();
-    const auto facts = find(view, "What follows from it")->getDescription();
+    const auto facts = the(view, "What follows from it").getDescription();
     EXPECT_TRUE(facts.contains("Actuators: without a device none has an output")) << facts;
     EXPECT_TRUE(facts.contains("Felt: by nobody")) << facts;
-    EXPECT_FALSE(find(view, "Device state")->getDescription().contains(" ms")) << "nothing is felt";
-    EXPECT_EQ(dynamic_cast<juce::ComboBox&>(*find(view, "Device")).getText(), "No device: seen, not felt");
+    EXPECT_FALSE(the(view, "Device state").getDescription().contains(" ms")) << "nothing is felt";
+    EXPECT_EQ(the<juce::ComboBox>(view, "Device").getText(), "No device: seen, not felt");
 }
 
 TEST(Headphones, AreInTheListAgainAfterNoDevice) {
@@ -425,7 +410,7 @@ TEST(Headphones, AreInTheListAgainAfterNoDevice) {
     MixerModel model{withNoDevice(fakeDrivers({&hands})), {"Fake:hands", 0, 0}};
     MixerView view{model};
     view.tabs().choose("Output");
-    auto& list = dynamic_cast<juce::ComboBox&>(*find(view, "Device"));
+    auto& list = the<juce::ComboBox>(view, "Device");
     const auto choose = [&](const juce::String& words) {
         return chooseIn(view, "Device", words), list.getText();
     };

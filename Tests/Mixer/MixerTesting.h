@@ -6,6 +6,8 @@
 #include "Mixer/Window/MixerView.h"
 #include <gtest/gtest.h>
 #include <juce_audio_formats/juce_audio_formats.h>
+#include <optional>
+#include <stdexcept>
 
 namespace physvib::test {
 
@@ -33,6 +35,13 @@ inline juce::Component* find(juce::Component& root, const juce::String& title) {
     return nullptr;
 }
 
+/// The same, of a class; throws where there is none.
+template <class T = juce::Component>
+T& the(juce::Component& root, const juce::String& title) {
+    if (auto* const found = dynamic_cast<T*>(find(root, title))) return *found;
+    throw std::invalid_argument{title.toStdString() + " is not there, or of another class"};
+}
+
 /// Chooses the entry that begins with `words`, as a hand does. Its whole text.
 inline juce::String chooseIn(juce::Component& view, const juce::String& title, const juce::String& words) {
     auto* const list = dynamic_cast<juce::ComboBox*>(find(view, title));
@@ -46,10 +55,12 @@ inline juce::String chooseIn(juce::Component& view, const juce::String& title, c
     return {};
 }
 
-/// A button, the left one unless told, at a place of `c`.
+/// A button, the left one unless another is given, at a place of `c`; pressed there, or elsewhere before.
 inline juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at,
-                                juce::ModifierKeys button = juce::ModifierKeys::leftButtonModifier) {
+                                juce::ModifierKeys button = juce::ModifierKeys::leftButtonModifier,
+                                std::optional<juce::Point<float>> pressedAt = {}) {
     const auto now = juce::Time::getCurrentTime();
+    const auto from = pressedAt.value_or(at);
     return {juce::Desktop::getInstance().getMainMouseSource(),
             at,
             button,
@@ -61,10 +72,34 @@ inline juce::MouseEvent mouseAt(juce::Component& c, juce::Point<float> at,
             &c,
             &c,
             now,
-            at,
+            from,
             now,
             1,
-            false};
+            from != at};
 }
+
+/// Another scene, as a choice from a list gives.
+inline void setScene(MixerModel& model, const Scene& scene) {
+    model.change("Scene", [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene); });
+}
+
+/// Other actuators, as a choice from the list of presets gives.
+inline void setLayout(Mix& mix, std::string_view preset) {
+    mix.layout = presetLayout(preset);
+    mix.resizeStrips();
+}
+
+/// A mixer without a device in its view.
+struct MixerInView {
+    MixerModel model{onlyNoDevice(), noDevice};
+    MixerView view{model};
+
+    /// What has changed is shown.
+    void show() {
+        model.dispatchPendingMessages();
+        view.refresh();
+    }
+    juce::Button& button(const juce::String& title) { return the<juce::Button>(view, title); }
+};
 
 } // namespace physvib::test

@@ -13,6 +13,8 @@ namespace {
 
 using namespace test;
 
+struct ShownMixer : testing::Test, MixerInView {};
+
 bool isControl(const juce::Component& c) {
     const auto* label = dynamic_cast<const juce::Label*>(&c);
     return dynamic_cast<const juce::Button*>(&c) != nullptr ||
@@ -33,15 +35,13 @@ void walk(juce::Component& root, const std::function<void(juce::Component&)>& vi
         if (child->isVisible()) walk(*child, visit);
 }
 
-TEST(MixerView, WhatGoesWithAHiddenComponentIsNotHiddenAsWell) {
+TEST_F(ShownMixer, WhatGoesWithAHiddenComponentIsNotHiddenAsWell) {
     struct Outlined final : juce::Component { // as JUCE's outline of what has the focus
         std::unique_ptr<juce::Component> outline = std::make_unique<juce::Component>();
         void visibilityChanged() override {
             if (!isVisible()) outline.reset();
         }
     } world;
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
     view.addAndMakeVisible(world);
     view.addAndMakeVisible(*world.outline);
     juce::Component screen;
@@ -50,9 +50,7 @@ TEST(MixerView, WhatGoesWithAHiddenComponentIsNotHiddenAsWell) {
     view.setScreen(nullptr);
 }
 
-TEST(MixerView, EveryControlIsNamedAndReachedByTheKeyboard) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, EveryControlIsNamedAndReachedByTheKeyboard) {
     int controls = 0;
     model.setSlowness(0); // what is disabled cannot be reached
     model.dispatchPendingMessages();
@@ -91,27 +89,21 @@ void expectRings(juce::Component& root) {
     });
 }
 
-TEST(MixerView, AnotherTabDoesNotFoldTheDrawerOnTheWay) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, AnotherTabDoesNotFoldTheDrawerOnTheWay) {
     view.tabs().choose("Actuators");
     view.tabs().onOpen = [](bool isOpen) { EXPECT_TRUE(isOpen); };
-    auto& output = dynamic_cast<juce::Button&>(*find(view.tabs(), "Output"));
+    auto& output = the<juce::Button>(view.tabs(), "Output");
     output.triggerClick();
     EXPECT_TRUE(runUntil([&] { return output.getToggleState(); }));
 }
 
-TEST(MixerView, WhatComesLaterHasARingAsWell) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
-    model.change("Scene",
-                 [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*findBuiltInScene("marbles")); });
+TEST_F(ShownMixer, WhatComesLaterHasARingAsWell) {
+    setScene(model, *findBuiltInScene("marbles"));
     model.dispatchPendingMessages();
     view.world().drawing().use(DrawTool::choose);
     view.world().drawing().choose({model.world().drawing().drawn().bodies.back().name});
-    auto* palette = find(view, "Materials to draw with");
-    ASSERT_NE(palette, nullptr);
-    EXPECT_GT(palette->getNumChildComponents(), 1) << "materials of the new scene";
+    auto& palette = the(view, "Materials to draw with");
+    EXPECT_GT(palette.getNumChildComponents(), 1) << "materials of the new scene";
     expectRings(view.world());
     view.world().drawing().use(DrawTool::hand);
     model.script().start();
@@ -121,7 +113,7 @@ TEST(MixerView, WhatComesLaterHasARingAsWell) {
     model.script().stop();
     model.dispatchPendingMessages();
     EXPECT_NE(find(view, "The script begins at"), nullptr);
-    EXPECT_TRUE(runUntil([&] { return view.refresh(), find(view, "Script of hands")->isVisible(); }));
+    EXPECT_TRUE(runUntil([&] { return view.refresh(), the(view, "Script of hands").isVisible(); }));
     expectRings(view.world());
     view.setQuestion(std::make_unique<QuestionCard>(
         "Take it?", "It is there.", std::vector<QuestionCard::Answer>{{"Yes", [] {}}, {"No", [] {}}}));
@@ -140,7 +132,7 @@ TEST(MixerView, ReturnIsTheFirstAnswerAndTheOthersAreButtonsAndKeys) {
         view.setQuestion(std::make_unique<QuestionCard>("Take it?", "It is there.", std::move(answers)));
         EXPECT_EQ(view.question()->getBounds().getCentreX(), view.getLocalBounds().getCentreX());
         if (way == "button")
-            dynamic_cast<juce::Button*>(find(*view.question(), "No"))->onClick();
+            the<juce::Button>(*view.question(), "No").onClick();
         else
             view.keyPressed(
                 juce::KeyPress{way == "key" ? juce::KeyPress::rightKey : juce::KeyPress::returnKey});
@@ -150,9 +142,7 @@ TEST(MixerView, ReturnIsTheFirstAnswerAndTheOthersAreButtonsAndKeys) {
     }
 }
 
-TEST(MixerView, TheTabKeyComesToEveryControl) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, TheTabKeyComesToEveryControl) {
     std::set<juce::Component*> reached;
     const auto traverser = view.createKeyboardFocusTraverser();
     for (auto* c : traverser->getAllComponents(&view)) reached.insert(c);
@@ -162,10 +152,9 @@ TEST(MixerView, TheTabKeyComesToEveryControl) {
     });
 }
 
-TEST(MixerView, TextHasEnoughContrastInBothLooks) { // WCAG 2.1, 1.4.3: 4.5 for text, 3 for what is large or
-                                                    // drawn
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, TextHasEnoughContrastInBothLooks) { // WCAG 2.1, 1.4.3: 4.5 for text, 3 for what is large
+                                                       // or
+                                                       // drawn
     for (const auto theme : {Theme::dark, Theme::light}) {
         view.setTheme(theme);
         for (const auto on : {Shade::panel, Shade::ground, Shade::well, Shade::raised})
@@ -194,9 +183,7 @@ double drawnContrast(MixerView& view, juce::Component& c) {
     return most;
 }
 
-TEST(MixerView, WhatIsDisabledCanBeRead) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, WhatIsDisabledCanBeRead) {
     for (const auto theme : {Theme::dark, Theme::light}) {
         view.setTheme(theme);
         juce::TextButton button{"NNNNNNNN"};
@@ -221,7 +208,7 @@ TEST(MixerView, LettersOfOtherScriptsAreDrawnWhereAFontIsThere) {
         MixerView view{model};
         Scene scene = model.world().drawing().drawn();
         scene.name = korean.toStdString();
-        model.change("Scene", [&](Mix& mix) { mix.scene = std::make_shared<const Scene>(scene); });
+        setScene(model, scene);
         model.dispatchPendingMessages();
         EXPECT_TRUE(hasLetters({}, korean));
         EXPECT_TRUE(hasLetters({}, "Silence"));
@@ -229,13 +216,10 @@ TEST(MixerView, LettersOfOtherScriptsAreDrawnWhereAFontIsThere) {
     EXPECT_EQ(hasLetters({}, korean), wasThere) << "only while they are shown";
 }
 
-TEST(MixerView, ButtonsDoWhatTheySay) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, ButtonsDoWhatTheySay) {
     const auto press = [&](const juce::String& title) {
-        auto* button = dynamic_cast<juce::Button*>(find(view, title));
-        ASSERT_NE(button, nullptr) << title;
-        button->onClick();
+        auto& button = the<juce::Button>(view, title);
+        button.onClick();
         model.dispatchPendingMessages();
     };
     press("Mute B");
@@ -258,16 +242,16 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
     view.keyPressed(juce::KeyPress{'z', juce::ModifierKeys::commandModifier, 0});
     EXPECT_EQ(model.mix().count(), 4);
     model.dispatchPendingMessages();
-    EXPECT_TRUE(find(view, "Redo")->isEnabled());
+    EXPECT_TRUE(the(view, "Redo").isEnabled());
     press("Redo");
     EXPECT_EQ(model.mix().count(), 5);
-    EXPECT_FALSE(find(view, "Redo")->isEnabled()) << "nothing is left of it";
+    EXPECT_FALSE(the(view, "Redo").isEnabled()) << "nothing is left of it";
     press("Undo");
     EXPECT_EQ(model.mix().count(), 4);
-    EXPECT_TRUE(find(view, "Undo")->isEnabled());
+    EXPECT_TRUE(the(view, "Undo").isEnabled());
     bool isSaved = false, isOpened = false, isOutput = false;
     view.topBar().onDevice = [&] { isOutput = true; };
-    find(view, "Device state")->mouseUp(mouseAt(*find(view, "Device state"), {4.0f, 4.0f}));
+    the(view, "Device state").mouseUp(mouseAt(*find(view, "Device state"), {4.0f, 4.0f}));
     view.topBar().onSave = [&] { isSaved = true; };
     view.topBar().onMenu = [&](juce::Component&) { isOpened = true; };
     press("Save the session (Ctrl+S)");
@@ -275,9 +259,7 @@ TEST(MixerView, ButtonsDoWhatTheySay) {
     EXPECT_TRUE(isSaved && isOpened && isOutput);
 }
 
-TEST(MixerView, WhatIsSilentStandsStill) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, WhatIsSilentStandsStill) {
     ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().masterPeak > 0.001f; }));
     model.setSilent(true);
     const auto isStill = [&] {
@@ -295,24 +277,21 @@ TEST(MixerView, WhatIsSilentStandsStill) {
     EXPECT_TRUE(runUntil([&] { return view.refresh(), view.latest().masterPeak > 0.001f; }));
 }
 
-TEST(MixerView, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {
     bool hasActed = false;
     model.report("one");
     model.messages().add({"two", false, {"Heal", [&] { hasActed = true; }}});
     model.dispatchPendingMessages();
-    auto* label = dynamic_cast<juce::Label*>(find(view, "Trouble"));
-    ASSERT_NE(label, nullptr);
-    EXPECT_EQ(label->getText(), "one");
+    auto& label = the<juce::Label>(view, "Trouble");
+    EXPECT_EQ(label.getText(), "one");
     EXPECT_EQ(find(view, "Heal"), nullptr);
-    dynamic_cast<juce::Button*>(find(view, "Dismiss the message"))->onClick();
+    the<juce::Button>(view, "Dismiss the message").onClick();
     model.dispatchPendingMessages();
-    EXPECT_EQ(label->getText(), "two");
-    dynamic_cast<juce::Button*>(find(view, "Heal"))->onClick();
+    EXPECT_EQ(label.getText(), "two");
+    the<juce::Button>(view, "Heal").onClick();
     model.dispatchPendingMessages();
     EXPECT_TRUE(hasActed);
-    EXPECT_FALSE(label->isVisible());
+    EXPECT_FALSE(label.isVisible());
     model.messages().add({"three", false, {"Heal", [] {}}});
     model.report("four");
     EXPECT_EQ(model.trouble(), "four");
@@ -324,9 +303,7 @@ TEST(MixerView, MessagesWaitForEachOtherAndNoneIsGluedToAnother) {
     EXPECT_TRUE(model.trouble().isEmpty());
 }
 
-TEST(MixerView, WhatFailedGoesOnceSomebodyWasThereAndWhatStillHoldsStays) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, WhatFailedGoesOnceSomebodyWasThereAndWhatStillHoldsStays) {
     view.faultMs = 100.0;
     const auto move = [&] {
         const auto source = juce::Desktop::getInstance().getMainMouseSource();
@@ -369,7 +346,7 @@ TEST(MixerView, WhatWasLostIsToldUntilItHasBeenFineForSomeSeconds) {
     MixerMoment moment;
     const auto isTold = [&] {
         for (int k = 0; k < 12; ++k) bar.refresh(moment);
-        return find(bar, "Load")->isVisible();
+        return the(bar, "Load").isVisible();
     };
     EXPECT_FALSE(isTold());
     moment.session.render.untold = 1499;
@@ -382,9 +359,7 @@ TEST(MixerView, WhatWasLostIsToldUntilItHasBeenFineForSomeSeconds) {
     EXPECT_TRUE(isTold());
 }
 
-TEST(MixerView, AMessageCoversNoBadge) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, AMessageCoversNoBadge) {
     view.setSize(1280, 800);
     model.report("session.json: expected 0.01 to 100, found 0");
     model.dispatchPendingMessages();
@@ -395,9 +370,7 @@ TEST(MixerView, AMessageCoversNoBadge) {
         EXPECT_FALSE(view.getLocalArea(&world, badge.toNearestInt()).intersects(banner.getBounds()));
 }
 
-TEST(MixerView, AMessageOfManyWordsHasRoomForThemBesideALongButton) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, AMessageOfManyWordsHasRoomForThemBesideALongButton) {
     view.setMode(Mode::play);
     view.setPanels({true, false});
     view.setSize(1024, 700);
@@ -405,12 +378,12 @@ TEST(MixerView, AMessageOfManyWordsHasRoomForThemBesideALongButton) {
                                "headphones have two";
     model.messages().show({words, false, {"Choose Model or sound instead", [] {}}});
     model.dispatchPendingMessages();
-    const auto& banner = dynamic_cast<juce::Label&>(*find(view, "Trouble"));
+    const auto& banner = the<juce::Label>(view, "Trouble");
     const auto room = banner.getBorderSize().subtractedFrom(banner.getLocalBounds());
     EXPECT_GE(room.getWidth(), 200) << banner.getBounds().toString() << view.world().getBounds().toString();
     EXPECT_GE(room.getHeight(), text::high(banner.getFont(), banner.getText(), room.getWidth()));
     for (const char* name : {"Choose Model or sound instead", "Dismiss the message"})
-        EXPECT_FALSE(find(view, name)->getBounds().intersects(room + banner.getPosition())) << name;
+        EXPECT_FALSE(the(view, name).getBounds().intersects(room + banner.getPosition())) << name;
     EXPECT_TRUE(view.world().getBounds().contains(banner.getBounds()));
 }
 
@@ -447,9 +420,7 @@ TEST(MixerView, AnOfferStaysUntilItIsAnsweredDismissedOrWithdrawn) {
     EXPECT_EQ(model.trouble(), "");
 }
 
-TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, NothingCoversTheButtonThatSilencesInAShow) {
     view.setVisible(true);
     view.setShow(true);
     model.messages().add(
@@ -468,7 +439,7 @@ TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
             const auto at = view.getLocalArea(silence, silence->getLocalBounds());
             for (const auto& corner : {at.getTopLeft(), at.getBottomRight() - juce::Point<int>{1, 1}})
                 EXPECT_EQ(view.getComponentAt(corner), silence) << width << corner.toString();
-            EXPECT_FALSE(find(view, "Trouble")->getBounds().intersects(at)) << width;
+            EXPECT_FALSE(the(view, "Trouble").getBounds().intersects(at)) << width;
         }
     juce::Component cover; // a card as large as the window
     view.addAndMakeVisible(cover);
@@ -481,9 +452,7 @@ TEST(MixerView, NothingCoversTheButtonThatSilencesInAShow) {
     EXPECT_EQ(silence->getButtonText(), "SILENT: press to feel");
 }
 
-TEST(MixerView, NoToolIsChosenWhereNoneIsShown) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, NoToolIsChosenWhereNoneIsShown) {
     auto& pane = view.world().drawing();
     view.setShow(true);
     view.keyPressed(juce::KeyPress{'B', {}, 'b'});
@@ -497,20 +466,17 @@ TEST(MixerView, NoToolIsChosenWhereNoneIsShown) {
     EXPECT_EQ(pane.tool(), DrawTool::ball);
 }
 
-TEST(MixerView, TheStatesOfDeviceAndBoardAreShownAtEverySize) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, TheStatesOfDeviceAndBoardAreShownAtEverySize) {
     for (const int width : {MixerView::minWidth, 1280, 1359, 1360, 1395, 1439, 1440, 1920, 3840}) {
         view.setSize(width, std::max(MixerView::minHeight, width * 9 / 16));
         int right = 0;
         for (const char* title : {"Device state", "Board state", "Load"}) {
-            const auto* state = find(view, title);
-            ASSERT_NE(state, nullptr);
-            EXPECT_TRUE(state->isVisible() || (width > 1260 && width < 1400)) << title << " at " << width;
-            if (!state->isVisible()) continue; // it has nothing to say
-            EXPECT_GE(state->getWidth(), 100) << title << " at " << width;
-            EXPECT_GE(state->getX(), right) << title << " at " << width;
-            right = state->getRight();
+            const auto& state = the(view, title);
+            EXPECT_TRUE(state.isVisible() || (width > 1260 && width < 1400)) << title << " at " << width;
+            if (!state.isVisible()) continue; // it has nothing to say
+            EXPECT_GE(state.getWidth(), 100) << title << " at " << width;
+            EXPECT_GE(state.getX(), right) << title << " at " << width;
+            right = state.getRight();
         }
     }
 }
@@ -535,9 +501,7 @@ TEST(MixerView, IsDrawnWhileStripsGo) { // the window is told a moment later; it
     EXPECT_EQ(find(view, "Group Left hand"), nullptr);
 }
 
-TEST(MixerView, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {
     auto* ceiling = dynamic_cast<juce::Slider*>(find(view, "Ceiling of B"));
     ASSERT_NE(ceiling, nullptr);
     ceiling->setValue(-20.0, juce::sendNotificationSync);
@@ -545,9 +509,8 @@ TEST(MixerView, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {
     EXPECT_EQ(model.mix().strips[1].ceilingDb, -20.0);
     EXPECT_EQ(ceiling->getTextFromValue(-20.0), "at most " + number(-20.0, 1) + " dB, 0.03 g")
         << "behind a master at -12 dB";
-    const auto* shown = dynamic_cast<juce::Label*>(find(view, "Ceiling of B in g"));
-    ASSERT_NE(shown, nullptr);
-    EXPECT_EQ(shown->getText(), "/ 0.03 g");
+    const auto& shown = the<juce::Label>(view, "Ceiling of B in g");
+    EXPECT_EQ(shown.getText(), "/ 0.03 g");
     EXPECT_FALSE(ceiling->isDoubleClickReturnEnabled());
     ceiling->mouseWheelMove(mouseAt(*ceiling, {15.0f, 15.0f}), {0.0f, 1.0f, false, false, false});
     EXPECT_EQ(model.mix().strips[1].ceilingDb, -20.0);
@@ -557,18 +520,14 @@ TEST(MixerView, ACeilingIsDraggedOrMovedByKeysAndNothingElseMovesIt) {
     EXPECT_EQ(model.mix().strips[1].ceilingDb, -20.0);
     model.attach(0.5, 0.5);
     model.dispatchPendingMessages();
-    const auto* next = find(view, "Ceiling of E in g");
-    ASSERT_NE(next, nullptr);
-    EXPECT_EQ(next->findColour(juce::Label::textColourId), shade(view, Shade::text)) << "as its neighbours";
+    const auto& next = the(view, "Ceiling of E in g");
+    EXPECT_EQ(next.findColour(juce::Label::textColourId), shade(view, Shade::text)) << "as its neighbours";
 }
 
-TEST(MixerView, ADragPushesByItsStrengthWhateverItPulls) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
-    auto* strength = dynamic_cast<juce::Slider*>(find(view, "Drag strength"));
-    ASSERT_NE(strength, nullptr);
-    EXPECT_EQ(strength->getValue(), 32'000.0);
-    strength->setValue(8'000.0, juce::sendNotificationSync);
+TEST_F(ShownMixer, ADragPushesByItsStrengthWhateverItPulls) {
+    auto& strength = the<juce::Slider>(view, "Drag strength");
+    EXPECT_EQ(strength.getValue(), 32'000.0);
+    strength.setValue(8'000.0, juce::sendNotificationSync);
     model.dispatchPendingMessages();
     auto& world = view.world().view();
     EXPECT_EQ(world.pullText(0.02), "drag 0.16 " + juce::String::fromUTF8("kN\xc2\xb7s"));
@@ -581,12 +540,10 @@ TEST(MixerView, ADragPushesByItsStrengthWhateverItPulls) {
               (Vector{0.0, 4000.0}));
     model.undoManager().undo();
     model.dispatchPendingMessages();
-    EXPECT_EQ(strength->getValue(), 32'000.0);
+    EXPECT_EQ(strength.getValue(), 32'000.0);
 }
 
-TEST(MixerView, AStripIsTestedAndSweptByButtonAndByKey) {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+TEST_F(ShownMixer, AStripIsTestedAndSweptByButtonAndByKey) {
     const auto strikes = [&] { return model.saved().log.strikes.size(); };
     auto *strip = find(view, "Strip C"), *sweep = find(view, "Sweep on C");
     ASSERT_TRUE(strip != nullptr && sweep != nullptr);
@@ -604,13 +561,12 @@ TEST(MixerView, APresetIsKnownByItsPlaces) {
     mix.layout.name = "own"; // as a session that `physvib play` saved
     MixerModel model{onlyNoDevice(), noDevice, mix};
     MixerView view{model};
-    const auto* preset = dynamic_cast<juce::ComboBox*>(find(view, "Preset"));
-    ASSERT_NE(preset, nullptr);
-    EXPECT_EQ(preset->getText(), "PHONE4");
+    const auto& preset = the<juce::ComboBox>(view, "Preset");
+    EXPECT_EQ(preset.getText(), "PHONE4");
     model.change("Move A",
                  [](Mix& m) { m.layout.geometry.places[0].xMetres = 0.01, m.layout.name = "phone4"; });
     model.dispatchPendingMessages();
-    EXPECT_EQ(preset->getSelectedItemIndex(), -1);
+    EXPECT_EQ(preset.getSelectedItemIndex(), -1);
 }
 
 } // namespace

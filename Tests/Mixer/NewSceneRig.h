@@ -6,9 +6,7 @@
 
 namespace physvib::test {
 
-struct NewSceneRig {
-    MixerModel model{onlyNoDevice(), noDevice};
-    MixerView view{model};
+struct NewSceneRig : MixerInView {
     DrawPane& pane = view.world().drawing();
     WorldView& world = view.world().view();
 
@@ -29,6 +27,9 @@ struct NewSceneRig {
                    });
         });
     }
+    void undo() { model.undoManager().undo(); }
+    /// As drawn; null: there is none.
+    const BodyDescription* body(std::string_view name) { return model.world().drawing().find(name); }
     const Scene& drawn() { return model.world().drawing().drawn(); }
     Vector share(double x, double y) { return {x * drawn().fieldWidthMetres, y * drawn().fieldHeightMetres}; }
 };

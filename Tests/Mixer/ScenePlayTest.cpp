@@ -18,9 +18,7 @@ struct Played {
 
     explicit Played(const std::string& scene) {
         view.setSize(1440, 900);
-        model.change("Scene", [&scene](Mix& mix) {
-            mix.scene = std::make_shared<const Scene>(findScene(scene).value);
-        });
+        setScene(model, findScene(scene).value);
     }
     float x(const std::string& body) { return view.refresh(), panel.view().placeOfBody(body).x; }
     bool isSeen(const std::function<bool()>& is) { return runUntil(is); }

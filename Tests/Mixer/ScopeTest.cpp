@@ -106,7 +106,7 @@ struct Scope : testing::Test {
 
 TEST_F(Scope, WhatIsStruckIsAPeakThatFallsCalmly) {
     model.setSlowness(0);
-    auto& spectrum = dynamic_cast<SpectrumView&>(*find(view, "Spectra"));
+    auto& spectrum = the<SpectrumView>(view, "Spectra");
     const auto isQuiet = [&](int channel) {
         return highestOf(spectrum.shown(channel)) == FrequencyAxis::floorDb;
     };
@@ -128,7 +128,7 @@ TEST_F(Scope, WhatIsStruckIsAPeakThatFallsCalmly) {
 
 TEST_F(Scope, PlayedEventsAreListedTheNewestFirst) {
     view.scope().choose("Events");
-    auto& list = dynamic_cast<juce::ListBox&>(*find(view, "List of played events"));
+    auto& list = the<juce::ListBox>(view, "List of played events");
     ASSERT_TRUE(runUntil([&] { return view.refresh(), model.recent().newestFirst().size() >= 5; }));
     ASSERT_TRUE(runUntil([&] { return view.refresh(), list.getModel()->getNumRows() >= 5; }));
     EXPECT_TRUE(std::ranges::is_sorted(model.recent().newestFirst(), std::greater{},
@@ -148,8 +148,7 @@ juce::String valueOf(const std::vector<Fact>& facts, const juce::String& name) {
 TEST_F(Scope, TelemetrySaysWhatTheSessionCounts) {
     view.scope().choose("Telemetry");
     ASSERT_TRUE(runUntil([&] { return view.refresh(), view.latest().session.render.played > 5; }));
-    auto& shown =
-        dynamic_cast<FactList&>(*find(*view.scope().find<TelemetryTab>()->getChildComponent(0), "Telemetry"));
+    auto& shown = the<FactList>(*view.scope().find<TelemetryTab>()->getChildComponent(0), "Telemetry");
     EXPECT_TRUE(runUntil([&] {
         return view.refresh(), valueOf(shown.facts(), "Clock").contains("48000 Hz");
     })) << shown.getDescription();

@@ -51,8 +51,7 @@ TEST_F(SessionMovie, ShowsTheLastPartOfASessionWithItsPausesAndScenes) {
     ASSERT_TRUE(play(400'000'000));
     model.setSlowness(0);
     ASSERT_TRUE(play(600'000'000));
-    model.change("Scene",
-                 [](Mix& mix) { mix.scene = std::make_shared<const Scene>(*findBuiltInScene("drop")); });
+    setScene(model, *findBuiltInScene("drop"));
     model.setSlowness(1);
     ASSERT_TRUE(play(1'200'000'000));
     const SavedSession session = model.saved();

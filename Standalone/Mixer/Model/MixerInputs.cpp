@@ -18,6 +18,7 @@ double stripDb(float gain) {
 }
 
 constexpr std::size_t maxWaiting = 1000; // reached only if the message thread hangs
+constexpr int reportMilliseconds = 10;
 
 OscSettings settingsOf(const OscChoice& choice) {
     OscSettings settings;
@@ -52,21 +53,36 @@ std::string MixerInputs::use(const OscChoice& choice) {
 
 // Closes the open port first, because it may be the one to be opened.
 std::string MixerInputs::open() {
-    osc_.reset();
-    messages_ = 0;
+    close();
     if (choice_.use == OscUse::off && choice_.receiver.empty()) return {};
-    osc_ = std::make_unique<MixerOsc>(
-        choice_, model_.session(), model_.output(), [this](const LineInput& input) { return apply(input); },
-        [this] { model_.collectPlayed(); });
-    std::string error = osc_->error();
-    if (!error.empty()) osc_.reset();
+    messages_.emplace(model_.session());
+    port_ = std::make_unique<OscPort>(
+        settingsOf(choice_), model_.session(), *messages_, model_.output(),
+        OscHooks{[this](const LineInput& input, const OscOrigin& origin) { return receive(input, origin); },
+                 [this] { return std::string{model_.output().isLent() ? "a study is running" : ""}; }});
+    std::string error = port_->error();
+    if (!error.empty())
+        close();
+    else if (!choice_.receiver.empty())
+        startTimer(reportMilliseconds);
     return error;
 }
 
+void MixerInputs::close() {
+    stopTimer();
+    port_.reset(); // after this no thread triggers an update
+    cancelPendingUpdate();
+    waiting_.clear();
+    come_ = refused_ = 0;
+    fault_.clear();
+}
+
+void MixerInputs::timerCallback() { model_.collectPlayed(); }
+
 bool MixerInputs::haveCome() {
-    if (!osc_) return false;
-    const std::uint64_t messages = osc_->status().counts.messages;
-    return std::exchange(messages_, messages) != messages;
+    if (!port_) return false;
+    const std::uint64_t messages = port_->status().counts.messages;
+    return std::exchange(come_, messages) != messages;
 }
 
 std::string MixerInputs::apply(const LineInput& input) {
@@ -101,30 +117,11 @@ std::string MixerInputs::apply(const RenderControl& control) {
     return {};
 }
 
-MixerOsc::MixerOsc(const OscChoice& choice, Session& session, AudioOutput& output,
-                   std::function<std::string(const LineInput&)> act, std::function<void()> collectPlayed)
-    : output_{output}
-    , act_{std::move(act)}
-    , collectPlayed_{std::move(collectPlayed)}
-    , messages_{session}
-    , port_{std::make_unique<OscPort>(
-          settingsOf(choice), session, messages_, output,
-          OscHooks{[this](const LineInput& input, const OscOrigin& origin) { return receive(input, origin); },
-                   [this] { return std::string{output_.isLent() ? "a study is running" : ""}; }})} {
-    if (!choice.receiver.empty() && port_->error().empty()) startTimer(reportMilliseconds);
-}
-
-MixerOsc::~MixerOsc() {
-    stopTimer();
-    port_.reset(); // after this no thread triggers an update
-    cancelPendingUpdate();
-}
-
-// Silence takes effect at once; the message thread only displays it.
-std::string MixerOsc::receive(const LineInput& input, const OscOrigin& origin) {
+// Silence takes effect at once; the message thread only displays it. On the port's thread.
+std::string MixerInputs::receive(const LineInput& input, const OscOrigin& origin) {
     const auto* silence = std::get_if<SilenceControl>(&input);
     const bool isDone = silence != nullptr && silence->isOn;
-    if (isDone) takeSilence(output_.silence(), *silence, MuteRequester::osc);
+    if (isDone) takeSilence(model_.output().silence(), *silence, MuteRequester::osc);
     const std::lock_guard lock{mutex_};
     if (waiting_.size() == maxWaiting) return isDone ? "" : "too many inputs at once";
     waiting_.push_back({input, origin});
@@ -132,14 +129,14 @@ std::string MixerOsc::receive(const LineInput& input, const OscOrigin& origin) {
     return {};
 }
 
-void MixerOsc::handleAsyncUpdate() {
+void MixerInputs::handleAsyncUpdate() {
     std::vector<Waiting> inputs;
     {
         const std::lock_guard lock{mutex_};
         inputs.swap(waiting_);
     }
     for (const Waiting& one : inputs) {
-        const std::string fault = act_(one.input);
+        const std::string fault = apply(one.input);
         if (fault.empty()) continue;
         port_->refuse(one.origin, fault);
         fault_ = fault;
@@ -147,7 +144,8 @@ void MixerOsc::handleAsyncUpdate() {
     }
 }
 
-OscStatus MixerOsc::status() const {
+std::optional<OscStatus> MixerInputs::status() const {
+    if (!port_) return {};
     OscStatus status = port_->status();
     status.counts.refused += refused_;
     if (status.counts.fault.empty()) status.counts.fault = fault_;

@@ -5,6 +5,7 @@
 #include "Live/Devices/AudioOutput.h"
 #include "Live/Documents/InputLine.h"
 #include "Live/Messages/MessageRouter.h"
+#include "Mixer/Model/MixerMessages.h"
 #include "Mixer/Model/MixerWorld.h"
 #include <juce_core/juce_core.h>
 #include <juce_events/juce_events.h>
@@ -27,67 +28,45 @@ struct OscChoice {
     bool operator==(const OscChoice&) const = default;
 };
 
-/// Receives and sends while it exists. Events go to the session at once; changes of strips and world are
-/// applied by the mixer itself. Message thread.
-class MixerOsc final : private juce::AsyncUpdater, private juce::Timer {
+/// The mixer's OSC port. Events go to the session at once; changes of strips and world are applied by the
+/// mixer itself. With a receiver, played events are collected often, to be reported. Message thread.
+class MixerInputs final : private juce::AsyncUpdater, private juce::Timer {
 public:
-    static constexpr int reportMilliseconds = 10;
+    /// `model` outlives it.
+    explicit MixerInputs(MixerModel& model)
+        : model_{model} {}
+    ~MixerInputs() override { close(); }
 
-    /// All references outlive it. `act` is called on the message thread and returns an error or an empty
-    /// string. With a receiver, `collectPlayed` is called often to report played events.
-    MixerOsc(const OscChoice& choice, Session& session, AudioOutput& output,
-             std::function<std::string(const LineInput&)> act, std::function<void()> collectPlayed);
-    ~MixerOsc() override;
+    /// Sets the OSC port. Empty, or an error, and then the old port stays.
+    std::string use(const OscChoice& choice);
+    const OscChoice& choice() const noexcept { return choice_; }
+    std::optional<OscStatus> status() const; ///< of the open port
 
-    const std::string& error() const noexcept { return port_->error(); }
-    OscStatus status() const;
+    bool haveCome(); ///< true if messages have come since the last call
+
+    void close(); ///< stops all input
 
 private:
     struct Waiting {
         LineInput input;
         OscOrigin origin;
     };
+    std::string open();
     std::string receive(const LineInput& input, const OscOrigin& origin);
     void handleAsyncUpdate() override;
-    void timerCallback() override { collectPlayed_(); }
-
-    AudioOutput& output_;
-    std::function<std::string(const LineInput&)> act_;
-    std::function<void()> collectPlayed_;
-    std::mutex mutex_; // guards the members below
-    std::vector<Waiting> waiting_;
-    // message thread:
-    std::string fault_; // last error of the mixer
-    std::uint64_t refused_ = 0;
-    MessageRouter messages_;
-    std::unique_ptr<OscPort> port_; // destroyed first, because its thread uses the other members
-};
-
-/// The mixer's OSC port. Message thread.
-class MixerInputs {
-public:
-    /// `model` outlives it.
-    explicit MixerInputs(MixerModel& model)
-        : model_{model} {}
-
-    /// Sets the OSC port. Empty, or an error, and then the old port stays.
-    std::string use(const OscChoice& choice);
-    const OscChoice& choice() const noexcept { return choice_; }
-    std::optional<OscStatus> status() const { return osc_ ? std::optional{osc_->status()} : std::nullopt; }
-
-    bool haveCome(); ///< true if messages have come since the last call
-
-    void close() { osc_.reset(); } ///< stops all input
-
-private:
-    std::string open();
+    void timerCallback() override;
     std::string apply(const LineInput& input);
     std::string apply(const RenderControl& control);
 
     MixerModel& model_;
     OscChoice choice_;
-    std::uint64_t messages_ = 0; // as of the last haveCome()
-    std::unique_ptr<MixerOsc> osc_;
+    std::mutex mutex_; // guards the next member
+    std::vector<Waiting> waiting_;
+    // message thread, of the open port:
+    std::uint64_t come_ = 0, refused_ = 0; // messages as of the last haveCome(); refused by the mixer
+    std::string fault_;                    // last error of the mixer
+    std::optional<MessageRouter> messages_;
+    std::unique_ptr<OscPort> port_; // destroyed first, because its thread uses the other members
 };
 
 /// True if the dragged files may be dropped as clips; the window handles documents. Message thread.

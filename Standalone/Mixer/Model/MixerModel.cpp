@@ -57,46 +57,43 @@ public:
         : panner_{panner} {}
 
     /// Posts all differences. If the session's queue is full, the rest is posted by the next call.
-    void send(Session& session, const Mix& mix);
+    void send(Session& session, const Mix& mix) {
+        using Kind = RenderControl::Kind;
+        const auto post = [&session](Kind kind, const PhantomPanner* panner = nullptr) {
+            return session.submit({RenderControl{0, kind, 0, 0.0f, panner}}).error.empty();
+        };
+        if (const auto panner = mix.panner(); !isSame(panner_, panner)) {
+            // a channel may belong to another actuator now
+            if (panner.channels() < panner_.channels() && !post(Kind::stopAll)) return;
+            if (!post(Kind::panner, &panner)) return;
+            panner_ = panner;
+        }
+        const auto felt = feltStrips(mix);
+        for (std::size_t j = 0; j < follows_.size(); ++j)
+            if (follows_[j]) strips_[j].gain = channelGain(felt[j]); // set by its lane
+        sendStrips(strips_, felt, [&session](const RenderControl& control) {
+            return session.submit({control}).error.empty();
+        });
+    }
 
     /// Sends changed lanes; the session itself then controls strips with a lane.
-    void follow(Session& session, const Mix& mix);
+    void follow(Session& session, const Mix& mix) {
+        std::vector<bool> follows(mix.strips.size());
+        for (std::size_t j = 0; j < follows.size(); ++j) follows[j] = hasLane(mix, j);
+        for (std::size_t j = 0; j < follows_.size(); ++j) // the gain at the end of its lane is unknown here
+            if (follows_[j] && (j >= follows.size() || !follows[j]))
+                strips_[j].gain = std::numeric_limits<float>::quiet_NaN();
+        const bool any = std::ranges::find(follows, true) != follows.end(),
+                   wereAny = std::ranges::find(follows_, true) != follows_.end();
+        follows_ = std::move(follows);
+        if (any || wereAny) session.submit({Lanes{any ? std::make_shared<const Mix>(mix) : nullptr}});
+    }
 
 private:
     PhantomPanner panner_;
     std::vector<bool> follows_; // by strip
     std::array<SentStrip, limits::maxEnchanters> strips_{};
 };
-
-void SentMix::send(Session& session, const Mix& mix) {
-    using Kind = RenderControl::Kind;
-    const auto post = [&session](Kind kind, const PhantomPanner* panner = nullptr) {
-        return session.submit({RenderControl{0, kind, 0, 0.0f, panner}}).error.empty();
-    };
-    if (const auto panner = mix.panner(); !isSame(panner_, panner)) {
-        // a channel may belong to another actuator now
-        if (panner.channels() < panner_.channels() && !post(Kind::stopAll)) return;
-        if (!post(Kind::panner, &panner)) return;
-        panner_ = panner;
-    }
-    const auto felt = feltStrips(mix);
-    for (std::size_t j = 0; j < follows_.size(); ++j)
-        if (follows_[j]) strips_[j].gain = channelGain(felt[j]); // set by its lane
-    sendStrips(strips_, felt,
-               [&session](const RenderControl& control) { return session.submit({control}).error.empty(); });
-}
-
-void SentMix::follow(Session& session, const Mix& mix) {
-    std::vector<bool> follows(mix.strips.size());
-    for (std::size_t j = 0; j < follows.size(); ++j) follows[j] = hasLane(mix, j);
-    for (std::size_t j = 0; j < follows_.size(); ++j) // the gain at the end of its lane is unknown here
-        if (follows_[j] && (j >= follows.size() || !follows[j]))
-            strips_[j].gain = std::numeric_limits<float>::quiet_NaN();
-    const bool any = std::ranges::find(follows, true) != follows.end(),
-               wereAny = std::ranges::find(follows_, true) != follows_.end();
-    follows_ = std::move(follows);
-    if (any || wereAny) session.submit({Lanes{any ? std::make_shared<const Mix>(mix) : nullptr}});
-}
 
 Mix MixerModel::firstMix() {
     Mix mix;

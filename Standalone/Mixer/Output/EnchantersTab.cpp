@@ -205,9 +205,9 @@ void EnchantersTab::usePreset() {
 
 void EnchantersTab::mixChanged() {
     const auto& mix = model_.mix();
-    preset_.setSelectedItemIndex(presetOf(mix.layout.geometry), juce::dontSendNotification);
-    law_.setSelectedItemIndex(static_cast<int>(mix.law), juce::dontSendNotification);
-    if (!exponent_.isMouseButtonDown()) exponent_.setValue(mix.exponent, juce::dontSendNotification);
+    preset_.setSelectedItemIndex(presetOf(mix.layout.geometry), quietly);
+    law_.setSelectedItemIndex(static_cast<int>(mix.law), quietly);
+    if (!exponent_.isMouseButtonDown()) exponent_.setValue(mix.exponent, quietly);
     widest_ = widestOf(mix.layout);
     list_.updateContent();
     list_.repaint();

@@ -120,7 +120,7 @@ EventsTab::EventsTab(MixerModel& model)
     describe(format_, "Dragged as",
              hitEndings()[0] + ": a channel for each actuator. " + utf8(listed(whole)) +
                  ": channels and places. " + utf8(listed(parted)) + ": a file for each actuator");
-    format_.setSelectedItemIndex(files_->ending(), juce::dontSendNotification);
+    format_.setSelectedItemIndex(files_->ending(), quietly);
     format_.onChange = [this] { files_->setEnding(format_.getSelectedItemIndex()); };
     save_ = quietButton("Save as clip" + dots(), "Save the chosen contacts as a clip (Return)",
                         [this] { saveAs(); });
@@ -167,7 +167,7 @@ void EventsTab::listChosen() {
     for (int row = 0; row < getNumRows(); ++row)
         if (const auto& contact = nth(shown_, row); isChosen(contact) && contact.number != last_)
             rows.addRange({row, row + 1});
-    list_.setSelectedRows(rows, juce::dontSendNotification);
+    list_.setSelectedRows(rows, quietly);
     if (const int last = rowOf(last_); last >= 0) list_.selectRow(last, true, false); // from it Shift goes on
 }
 
@@ -190,7 +190,7 @@ void EventsTab::describeChoice() {
     if (chosen_.empty())
         return choice_.setText(isNarrow() ? "Choose some, then drag them out"
                                           : "Choose contacts, then drag them into another program",
-                               juce::dontSendNotification);
+                               quietly);
     std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
     for (const RecentContact& contact : shown_)
         if (isChosen(contact))
@@ -198,7 +198,7 @@ void EventsTab::describeChoice() {
     choice_.setText(countOf(chosen_.size(), "contact") +
                         (last > first ? " within " + timeText(last - first) : juce::String{}) +
                         (isNarrow() ? "" : ", to be dragged out"),
-                    juce::dontSendNotification);
+                    quietly);
 }
 
 juce::String EventsTab::getNameForRow(int row) {

@@ -66,8 +66,19 @@ OutputTab::OutputTab(MixerModel& model)
              "A pulse at the sample of each onset, for trigger boxes. No actuator and no ear belongs there");
     for (const int db : monitorLevels) monitorLevel_.addItem(number(db, 0) + " dBFS", levelId - db);
     for (auto* box : {&monitor_, &monitorLevel_}) box->onChange = [this] { chooseMonitor(); };
-    marks_.onChange = [this] { chooseMarks(); };
-    prepareOsc();
+    marks_.onChange = [this] {
+        model_.reportFault(model_.device().listening().mark(marks_.getSelectedId() - noneId - 1));
+        listHeard();
+    };
+    describe(osc_, "OSC", "Who may strike, tilt and set gains by messages over the network: phones, Pd, Max");
+    for (int use = 0; use < static_cast<int>(oscUses.size()); ++use) osc_.addItem(nth(oscUses, use), use + 1);
+    describe(hits_, "Hits by OSC",
+             "HOST:PORT of a program that hears of each hit as it is felt, and of the status once a second");
+    describe(phone_, "Phone", "How a phone is held that tilts the world by OSC: where its top points");
+    for (int k = 0; k < static_cast<int>(phoneHolds.size()); ++k)
+        phone_.addItem(nth(phoneHolds, k).words, k + 1);
+    for (auto* box : {&osc_, &phone_}) box->onChange = [this] { listen(); };
+    hits_.onChange = [this] { chooseReceiver(); };
     device_.setTitle("Device");
     rate_.setTitle("Rate");
     block_.setTitle("Block");
@@ -183,8 +194,8 @@ juce::String OutputTab::ownersOf(int output, bool isMuteTold) const {
 // Lists output pairs for headphones, with the labels of actuators that would lose an output.
 void OutputTab::listHeard() {
     const auto& choice = model_.device().choice();
-    monitor_.clear(juce::dontSendNotification);
-    marks_.clear(juce::dontSendNotification);
+    monitor_.clear(quietly);
+    marks_.clear(quietly);
     monitor_.addItem("none", noneId);
     marks_.addItem("none", noneId);
     for (int k = 0; k < model_.device().outputs(); ++k) {
@@ -195,19 +206,18 @@ void OutputTab::listHeard() {
                              (owners.isEmpty() ? juce::String{} : ", instead of" + owners),
                          noneId + 1 + k);
     }
-    monitor_.setSelectedId(choice.monitor.empty() ? noneId : noneId + 1 + choice.monitor[0],
-                           juce::dontSendNotification);
+    monitor_.setSelectedId(choice.monitor.empty() ? noneId : noneId + 1 + choice.monitor[0], quietly);
     if (choice.monitor.size() == 2 && model_.device().listening().settings().contacts.empty()) {
         const auto owners = ownersOf(choice.monitor[0]) + ownersOf(choice.monitor[1]);
         monitor_.setText("off: outputs " + juce::String{choice.monitor[0] + 1} + " and " +
                              juce::String{choice.monitor[1] + 1} +
                              (owners.isEmpty() ? juce::String{} : ", which are of" + owners),
-                         juce::dontSendNotification);
+                         quietly);
     }
-    monitorLevel_.setSelectedId(levelId - juce::roundToInt(choice.monitorDb), juce::dontSendNotification);
+    monitorLevel_.setSelectedId(levelId - juce::roundToInt(choice.monitorDb), quietly);
     if (monitorLevel_.getSelectedId() == 0)
-        monitorLevel_.setText(number(choice.monitorDb, 1) + " dBFS", juce::dontSendNotification);
-    marks_.setSelectedId(noneId + 1 + choice.marker, juce::dontSendNotification);
+        monitorLevel_.setText(number(choice.monitorDb, 1) + " dBFS", quietly);
+    marks_.setSelectedId(noneId + 1 + choice.marker, quietly);
 }
 
 void OutputTab::chooseMonitor() {
@@ -216,11 +226,6 @@ void OutputTab::chooseMonitor() {
                                                         : model_.device().choice().monitorDb;
     model_.reportFault(left < 0 ? model_.device().listening().monitor({}, db)
                                 : model_.monitorInstead({left, left + 1}, db));
-    listHeard();
-}
-
-void OutputTab::chooseMarks() {
-    model_.reportFault(model_.device().listening().mark(marks_.getSelectedId() - noneId - 1));
     listHeard();
 }
 
@@ -265,7 +270,7 @@ std::vector<Fact> OutputTab::sinkFacts() const {
 
 void OutputTab::mixChanged() {
     const auto& choice = model_.device().choice();
-    device_.clear(juce::dontSendNotification);
+    device_.clear(quietly);
     int chosen = 0;
     const bool isNone = choice.name.starts_with(noDeviceType);
     if (!isNone) worn_ = choice.name;
@@ -282,13 +287,13 @@ void OutputTab::mixChanged() {
     if (!worn_.empty()) device_.addItem("Headphones: " + utf8(worn_) + " (L and R)", earsId);
     if (choice.isHeadphones && !isNone) chosen = earsId;
     listSinks();
-    device_.setSelectedId(chosen, juce::dontSendNotification);
+    device_.setSelectedId(chosen, quietly);
     auto all = !isNone ? (chosen > 0 ? device_.getText() : utf8(choice.name))
                        : juce::String{choice.sinks.empty() ? noDeviceTitle : "No device"};
     for (const SinkName& sink : choice.sinks) all << " + " << kindOf(sink).title.data();
-    device_.setText(all, juce::dontSendNotification);
-    rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, juce::dontSendNotification);
-    block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, juce::dontSendNotification);
+    device_.setText(all, quietly);
+    rate_.setSelectedId(choice.sampleRateHz > 0 ? choice.sampleRateHz : 1, quietly);
+    block_.setSelectedId(choice.blockFrames > 0 ? choice.blockFrames : 1, quietly);
     listHeard();
     showOsc();
 }
@@ -366,18 +371,6 @@ void OutputTab::resized() {
     facts_.setBounds(area);
 }
 
-void OutputTab::prepareOsc() {
-    describe(osc_, "OSC", "Who may strike, tilt and set gains by messages over the network: phones, Pd, Max");
-    for (int use = 0; use < static_cast<int>(oscUses.size()); ++use) osc_.addItem(nth(oscUses, use), use + 1);
-    describe(hits_, "Hits by OSC",
-             "HOST:PORT of a program that hears of each hit as it is felt, and of the status once a second");
-    describe(phone_, "Phone", "How a phone is held that tilts the world by OSC: where its top points");
-    for (int k = 0; k < static_cast<int>(phoneHolds.size()); ++k)
-        phone_.addItem(nth(phoneHolds, k).words, k + 1);
-    for (auto* box : {&osc_, &phone_}) box->onChange = [this] { listen(); };
-    hits_.onChange = [this] { chooseReceiver(); };
-}
-
 void OutputTab::listen() {
     OscChoice choice = model_.inputs().choice();
     const auto before = choice.use;
@@ -424,14 +417,14 @@ void OutputTab::showOsc() {
     const OscChoice& choice = model_.inputs().choice();
     const auto known = choice.receiver.empty() ? hits_.getItemText(hits_.indexOfItemId(knownReceiverId))
                                                : utf8(choice.receiver);
-    osc_.setSelectedItemIndex(static_cast<int>(choice.use), juce::dontSendNotification);
-    hits_.clear(juce::dontSendNotification);
+    osc_.setSelectedItemIndex(static_cast<int>(choice.use), quietly);
+    hits_.clear(quietly);
     hits_.addItem("nobody", nobodyId);
     if (known.isNotEmpty()) hits_.addItem(known, knownReceiverId);
     hits_.addItem("another program" + dots(), otherReceiverId);
-    hits_.setSelectedId(choice.receiver.empty() ? nobodyId : knownReceiverId, juce::dontSendNotification);
+    hits_.setSelectedId(choice.receiver.empty() ? nobodyId : knownReceiverId, quietly);
     const auto hold = std::ranges::find(phoneHolds, choice.turnDegrees, &PhoneHold::turnDegrees);
-    phone_.setSelectedItemIndex(static_cast<int>(hold - phoneHolds.begin()), juce::dontSendNotification);
+    phone_.setSelectedItemIndex(static_cast<int>(hold - phoneHolds.begin()), quietly);
 }
 
 juce::String OutputTab::oscState(Shade& state) const {

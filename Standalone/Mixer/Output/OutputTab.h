@@ -84,7 +84,6 @@ private:
     void listSinks();
     void choose(const SinkRow& row);
     void use(const SinkKind& kind, const std::string& where);
-    void prepareOsc();
     void listen();
     void chooseReceiver();
     void useOsc(const OscChoice& choice, const juce::String& what);
@@ -95,7 +94,6 @@ private:
     juce::String oscState(Shade& shade) const;
     void listHeard();
     void chooseMonitor();
-    void chooseMarks();
     juce::String ownersOf(int output, bool isMuteTold = false) const;
     juce::String heardWords() const;
 

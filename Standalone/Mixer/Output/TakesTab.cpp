@@ -32,6 +32,149 @@ juce::String millisecondsText(double seconds) {
 
 constexpr int columns = 400;
 constexpr double leastSeconds = 0.02, step = 0.01;
+constexpr float leastFelt = 0.001f; // -60 dB of full scale
+constexpr double fadeSeconds = 0.005;
+
+/// The largest sample in each of the columns of a recording, which is streamed: a long one takes no more
+/// memory than a short one.
+struct Levels final : SoundTaker {
+    explicit Levels(std::function<bool()> goesOn)
+        : keepGoing{std::move(goesOn)} {}
+    std::string begin(const SoundShape& of) override {
+        shape = of;
+        return shape.frames > 0 ? std::string{} : "no samples";
+    }
+    std::string take(const float* const* channels, int frames) override {
+        for (int k = 0; k < frames && at < shape.frames; ++k, ++at) {
+            float& level = nth(levels, at * columns / shape.frames);
+            for (int c = 0; c < shape.channels; ++c) level = std::max(level, std::abs(channels[c][k]));
+        }
+        return keepGoing() ? std::string{} : "cancelled";
+    }
+    std::vector<float> levels = std::vector<float>(columns);
+    const std::function<bool()> keepGoing;
+    SoundShape shape;
+    std::int64_t at = 0;
+};
+
+Provenance provenanceOf(const juce::File& take) {
+    return {PHYSVIB_VERSION, {{"part_of", take.getFileName().toStdString()}}};
+}
+
+/// A part of a take, as a recording of its own. An edge within the sound fades in 5 ms.
+class Part final : public SoundTaker {
+public:
+    Part(const juce::File& take, juce::Range<double> seconds, const juce::File& to)
+        : take_{take}
+        , seconds_{seconds}
+        , to_{to} {}
+    /// Empty, or one line.
+    std::string write() {
+        auto error = streamRecording(pathOf(take_), *this);
+        return error.empty() ? sink_->finish() : error;
+    }
+    std::string begin(const SoundShape& shape) override {
+        const auto frameOf = [&](double s) {
+            return std::clamp<std::int64_t>(std::llround(s * static_cast<double>(shape.sampleRateHz)), 0,
+                                            shape.frames);
+        };
+        from_ = frameOf(seconds_.getStart());
+        end_ = frameOf(seconds_.getEnd());
+        frames_ = shape.frames;
+        fade_ = std::max<std::int64_t>(1, frameOf(fadeSeconds));
+        rateHz_ = static_cast<int>(shape.sampleRateHz);
+        block_.resize(static_cast<std::size_t>(shape.channels));
+        sink_.emplace(pathOf(to_), static_cast<int>(shape.channels), rateHz_,
+                      provenanceLine(provenanceOf(take_)));
+        return sink_->error();
+    }
+    std::string take(const float* const* channels, int frames) override {
+        for (auto& samples : block_) samples.clear();
+        for (int k = 0; k < frames; ++k, ++at_)
+            if (at_ >= from_ && at_ < end_)
+                for (std::size_t c = 0; c < block_.size(); ++c)
+                    block_[c].push_back(channels[c][k] * gainAt(at_));
+        std::vector<const float*> pointers;
+        for (const auto& samples : block_) pointers.push_back(samples.data());
+        sink_->write(pointers.data(), static_cast<int>(block_[0].size()));
+        return sink_->error();
+    }
+    std::int64_t nsOf(std::int64_t frames) const { return frames * 1'000'000'000 / rateHz_; }
+    std::int64_t fromNs() const { return nsOf(from_); }
+    std::int64_t endNs() const { return nsOf(end_); }
+
+private:
+    float gainAt(std::int64_t frame) const {
+        const auto in = from_ == 0 ? fade_ : frame - from_ + 1, out = end_ == frames_ ? fade_ : end_ - frame;
+        return static_cast<float>(std::min({fade_, in, out})) / static_cast<float>(fade_);
+    }
+    const juce::File take_;
+    const juce::Range<double> seconds_;
+    const juce::File to_;
+    std::optional<WavSink> sink_;
+    std::vector<std::vector<float>> block_;
+    int rateHz_ = 1;
+    std::int64_t from_ = 0, end_ = 0, frames_ = 0, fade_ = 1, at_ = 0;
+};
+
+/// True if nothing follows the header, which readers of lists refuse.
+bool hasNoRows(std::string_view list) {
+    const auto lines = juce::StringArray::fromLines(utf8(std::string{list}));
+    return std::ranges::count_if(lines, [](const juce::String& line) {
+               return line.trim().isNotEmpty() && !line.startsWithChar('#');
+           }) <= 1;
+}
+
+/// Of a take that felt nothing there are none.
+Result<EventList> eventsOfTake(const juce::File& list) {
+    const std::string path = pathOf(list);
+    auto read = loadEventsCsv(path);
+    if (read) return read;
+    const auto text = readFile(path, limits::maxEventsFileBytes);
+    return text && hasNoRows(text.value) ? Result<EventList>{EventList{}} : read;
+}
+
+/// With the events in it; if those of the take cannot be read, nothing is written.
+std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to) {
+    const bool hasList = eventsOf(take).existsAsFile();
+    auto list = hasList ? eventsOfTake(eventsOf(take)) : Result<EventList>{EventList{}};
+    if (!list) return list.error;
+    Part part{take, seconds, to};
+    if (auto error = part.write(); !error.empty() || !hasList) return error;
+    auto& events = list.value.events;
+    std::erase_if(events, [&](const CollisionEvent& e) {
+        return e.timeNs < part.fromNs() || e.timeNs >= part.endNs();
+    });
+    for (auto& event : events) event.timeNs -= part.fromNs();
+    return writeFile(pathOf(eventsOf(to)),
+                     eventsCsv(events, list.value.field, provenanceOf(take), list.value.names));
+}
+
+constexpr const char *fromField = "from_s", *toField = "to_s", *ofField = "of_s";
+constexpr double sameLength = 1e-6; // as written in text
+
+/// Below the takes, for what belongs to them and is not listed.
+juce::File partsFolder(const juce::File& take) { return take.getSiblingFile("parts"); }
+
+/// Of the part that was chosen of it: the recording and its events stay as they are.
+juce::File fileOf(const juce::File& take) {
+    return partsFolder(take).getChildFile(take.getFileNameWithoutExtension() + ".json");
+}
+
+/// All of the take needs no file. Empty, or one line.
+std::string keepPart(const juce::File& take, double seconds, juce::Range<double> part) {
+    const auto file = fileOf(take);
+    if (part == juce::Range{0.0, seconds})
+        return !file.existsAsFile() || file.deleteFile() ? std::string{}
+                                                         : pathOf(file) + ": cannot be deleted";
+    auto* const fields = new juce::DynamicObject; // owned by the value below
+    const juce::var kept{fields};
+    fields->setProperty(fromField, part.getStart());
+    fields->setProperty(toField, part.getEnd());
+    fields->setProperty(ofField, seconds);
+    file.getParentDirectory().createDirectory();
+    return writeFile(pathOf(file), juce::JSON::toString(kept, true, 15).toStdString() + "\n");
+}
 
 } // namespace
 
@@ -146,7 +289,7 @@ void TakesTab::play() {
                                               millisecondsText(part.getEnd()) + " ms.wav");
         if (!file.existsAsFile() || file.getLastModificationTime() < take()->at) {
             file.getParentDirectory().createDirectory();
-            if (model_.reportFault(writeTakePart(take()->file, part, file))) return;
+            if (model_.reportFault(Part{take()->file, part, file}.write())) return;
         }
     }
     model_.strikes().playTake(file);
@@ -259,10 +402,11 @@ void TakeTrim::show(const juce::File& take, double seconds, juce::Range<double> 
     isWaiting_ = false;
     const int number = ++reading_;
     reader_.addJob([this, take, number] {
-        auto levels = takeLevels(take, columns, [&] { return number == reading_; });
+        Levels read{[&] { return number == reading_; }};
+        const bool isRead = streamRecording(pathOf(take), read).empty();
         const std::lock_guard lock{mutex_};
         if (number != reading_) return;
-        read_ = std::move(levels);
+        read_ = isRead ? std::move(read.levels) : std::vector<float>{};
         triggerAsyncUpdate();
     });
 }
@@ -332,122 +476,6 @@ void TakeTrim::paint(juce::Graphics& g) {
     if (played_ >= 0.0) g.fillRect(pixelOf(played_), 0.0f, 1.0f, 2.0f * middle);
 }
 
-// Streams recordings, so that a long one takes no more memory than a short one.
-
-namespace {
-
-constexpr float leastFelt = 0.001f; // -60 dB of full scale
-constexpr double fadeSeconds = 0.005;
-
-class Levels final : public SoundTaker {
-public:
-    Levels(int columns, const std::function<bool()>& keepGoing)
-        : levels(static_cast<std::size_t>(columns))
-        , keepGoing_{keepGoing} {}
-    std::string begin(const SoundShape& shape) override {
-        shape_ = shape;
-        return shape.frames > 0 ? std::string{} : "no samples";
-    }
-    std::string take(const float* const* channels, int frames) override {
-        const auto columns = static_cast<std::int64_t>(levels.size());
-        for (int k = 0; k < frames && at_ < shape_.frames; ++k, ++at_) {
-            float& level = nth(levels, at_ * columns / shape_.frames);
-            for (int c = 0; c < shape_.channels; ++c) level = std::max(level, std::abs(channels[c][k]));
-        }
-        return keepGoing_() ? std::string{} : "cancelled";
-    }
-    std::vector<float> levels;
-
-private:
-    const std::function<bool()>& keepGoing_;
-    SoundShape shape_;
-    std::int64_t at_ = 0;
-};
-
-class Part final : public SoundTaker {
-public:
-    Part(juce::Range<double> seconds, const juce::File& to, const std::string& comment)
-        : seconds_{seconds}
-        , to_{to}
-        , comment_{comment} {}
-    std::string begin(const SoundShape& shape) override {
-        const auto frameOf = [&](double s) {
-            return std::clamp<std::int64_t>(std::llround(s * static_cast<double>(shape.sampleRateHz)), 0,
-                                            shape.frames);
-        };
-        from_ = frameOf(seconds_.getStart());
-        end_ = frameOf(seconds_.getEnd());
-        frames_ = shape.frames;
-        fade_ = std::max<std::int64_t>(1, frameOf(fadeSeconds));
-        rateHz_ = static_cast<int>(shape.sampleRateHz);
-        block_.resize(static_cast<std::size_t>(shape.channels));
-        sink_.emplace(pathOf(to_), static_cast<int>(shape.channels), rateHz_, comment_);
-        return sink_->error();
-    }
-    std::string take(const float* const* channels, int frames) override {
-        for (auto& samples : block_) samples.clear();
-        for (int k = 0; k < frames; ++k, ++at_)
-            if (at_ >= from_ && at_ < end_)
-                for (std::size_t c = 0; c < block_.size(); ++c)
-                    block_[c].push_back(channels[c][k] * gainAt(at_));
-        std::vector<const float*> pointers;
-        for (const auto& samples : block_) pointers.push_back(samples.data());
-        sink_->write(pointers.data(), static_cast<int>(block_[0].size()));
-        return sink_->error();
-    }
-    std::string finish() { return sink_->finish(); }
-    std::int64_t nsOf(std::int64_t frames) const { return frames * 1'000'000'000 / rateHz_; }
-    std::int64_t fromNs() const { return nsOf(from_); }
-    std::int64_t endNs() const { return nsOf(end_); }
-
-private:
-    float gainAt(std::int64_t frame) const {
-        const auto in = from_ == 0 ? fade_ : frame - from_ + 1, out = end_ == frames_ ? fade_ : end_ - frame;
-        return static_cast<float>(std::min({fade_, in, out})) / static_cast<float>(fade_);
-    }
-    const juce::Range<double> seconds_;
-    const juce::File to_;
-    const std::string comment_;
-    std::optional<WavSink> sink_;
-    std::vector<std::vector<float>> block_;
-    int rateHz_ = 1;
-    std::int64_t from_ = 0, end_ = 0, frames_ = 0, fade_ = 1, at_ = 0;
-};
-
-std::string writePart(const juce::File& take, Part& part) {
-    auto error = streamRecording(pathOf(take), part);
-    return error.empty() ? part.finish() : error;
-}
-
-Provenance provenanceOf(const juce::File& take) {
-    return {PHYSVIB_VERSION, {{"part_of", take.getFileName().toStdString()}}};
-}
-
-/// True if nothing follows the header, which readers of lists refuse.
-bool hasNoRows(std::string_view list) {
-    const auto lines = juce::StringArray::fromLines(utf8(std::string{list}));
-    return std::ranges::count_if(lines, [](const juce::String& line) {
-               return line.trim().isNotEmpty() && !line.startsWithChar('#');
-           }) <= 1;
-}
-
-/// Of a take that felt nothing there are none.
-Result<EventList> eventsOfTake(const juce::File& list) {
-    const std::string path = pathOf(list);
-    auto read = loadEventsCsv(path);
-    if (read) return read;
-    const auto text = readFile(path, limits::maxEventsFileBytes);
-    return text && hasNoRows(text.value) ? Result<EventList>{EventList{}} : read;
-}
-
-} // namespace
-
-std::vector<float> takeLevels(const juce::File& take, int columns, const std::function<bool()>& keepGoing) {
-    Levels levels{columns, keepGoing};
-    const auto error = streamRecording(pathOf(take), levels);
-    return error.empty() ? std::move(levels.levels) : std::vector<float>{};
-}
-
 juce::Range<double> soundingPart(const std::vector<float>& levels, double seconds) {
     const auto isFelt = [](float level) { return level >= leastFelt; };
     const auto first = std::ranges::find_if(levels, isFelt);
@@ -459,41 +487,6 @@ juce::Range<double> soundingPart(const std::vector<float>& levels, double second
     return {secondsOf(first), secondsOf(last)};
 }
 
-std::string writeTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to) {
-    Part part{seconds, to, provenanceLine(provenanceOf(take))};
-    return writePart(take, part);
-}
-
-std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to) {
-    const bool hasList = eventsOf(take).existsAsFile();
-    auto list = hasList ? eventsOfTake(eventsOf(take)) : Result<EventList>{EventList{}};
-    if (!list) return list.error;
-    Part part{seconds, to, provenanceLine(provenanceOf(take))};
-    if (auto error = writePart(take, part); !error.empty() || !hasList) return error;
-    auto& events = list.value.events;
-    std::erase_if(events, [&](const CollisionEvent& e) {
-        return e.timeNs < part.fromNs() || e.timeNs >= part.endNs();
-    });
-    for (auto& event : events) event.timeNs -= part.fromNs();
-    return writeFile(pathOf(eventsOf(to)),
-                     eventsCsv(events, list.value.field, provenanceOf(take), list.value.names));
-}
-
-// Beside the parts that were played, so that the recording and its events stay as they are.
-
-namespace {
-
-constexpr const char *fromField = "from_s", *toField = "to_s", *ofField = "of_s";
-constexpr double sameLength = 1e-6; // as written in text
-
-juce::File fileOf(const juce::File& take) {
-    return partsFolder(take).getChildFile(take.getFileNameWithoutExtension() + ".json");
-}
-
-} // namespace
-
-juce::File partsFolder(const juce::File& take) { return take.getSiblingFile("parts"); }
-
 // The length is kept as well, because a later recording may have the name of one that is gone.
 juce::Range<double> keptPart(const juce::File& take, double seconds) {
     const juce::Range<double> whole{0.0, seconds};
@@ -502,20 +495,6 @@ juce::Range<double> keptPart(const juce::File& take, double seconds) {
     const double from = field(fromField), to = field(toField);
     const bool isOfThisTake = std::abs(field(ofField) - seconds) <= sameLength;
     return isOfThisTake && from >= 0.0 && from < to && to <= seconds ? juce::Range{from, to} : whole;
-}
-
-std::string keepPart(const juce::File& take, double seconds, juce::Range<double> part) {
-    const auto file = fileOf(take);
-    if (part == juce::Range{0.0, seconds})
-        return !file.existsAsFile() || file.deleteFile() ? std::string{}
-                                                         : pathOf(file) + ": cannot be deleted";
-    auto* const fields = new juce::DynamicObject; // owned by the value below
-    const juce::var kept{fields};
-    fields->setProperty(fromField, part.getStart());
-    fields->setProperty(toField, part.getEnd());
-    fields->setProperty(ofField, seconds);
-    file.getParentDirectory().createDirectory();
-    return writeFile(pathOf(file), juce::JSON::toString(kept, true, 15).toStdString() + "\n");
 }
 
 } // namespace physvib

@@ -117,29 +117,12 @@ private:
     std::unique_ptr<juce::TextButton> play_, trim_, export_, show_, erase_;
 };
 
-/// A part of a recording: how loud it is over time, and the part as a recording of its own.
-/// The largest sample in each of so many equal parts of a recording; empty if it cannot be read, or when
-/// `keepGoing` has returned false. Any thread.
-std::vector<float> takeLevels(const juce::File& take, int columns, const std::function<bool()>& keepGoing);
-
-/// From the first part that can be felt to the last, s; all of it if there is none. Any thread.
+/// From the first part of a take's levels that can be felt to the last, s; all of it if there is none. Any
+/// thread.
 juce::Range<double> soundingPart(const std::vector<float>& levels, double seconds);
 
-/// Writes that part as a recording of its own. An edge within the sound fades in 5 ms. Empty, or one line.
-/// Message thread, as the next one.
-std::string writeTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to);
-
-/// With the events in it; if those of the take cannot be read, nothing is written.
-std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to);
-
-/// Which part of a recording was chosen, kept in a small file below it.
-/// The folder below the takes for what belongs to them and is not listed.
-juce::File partsFolder(const juce::File& take);
-
-/// The part that was kept, s; all of the take if none was, or one of another length. Message thread.
+/// The part of a take that was kept in a small file below it, s; all of it if none was, or one of another
+/// length. Message thread.
 juce::Range<double> keptPart(const juce::File& take, double seconds);
-
-/// All of the take needs no file. Empty, or one line. Message thread.
-std::string keepPart(const juce::File& take, double seconds, juce::Range<double> part);
 
 } // namespace physvib

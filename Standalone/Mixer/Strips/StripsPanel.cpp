@@ -6,6 +6,30 @@
 #include "Io/Disk/ReadFile.h"
 
 namespace physvib {
+namespace {
+
+/// Of the groups that a strip may have, and a new one.
+void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& from) {
+    const auto& mix = model.mix();
+    const auto label = labelOf(mix, strip);
+    const auto put = [&model, strip, label](int group) {
+        model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = group; });
+    };
+    juce::PopupMenu menu;
+    menu.addSectionHeader("Group of " + label);
+    menu.addItem("None", true, mix.strips[strip].group < 0, [put] { put(-1); });
+    for (int k = 0; k < static_cast<int>(mix.groups.size()); ++k)
+        menu.addItem(utf8(nth(mix.groups, k).name), true, mix.strips[strip].group == k, [put, k] { put(k); });
+    menu.addSeparator();
+    const auto fresh = freeGroupName(mix);
+    menu.addItem("New: " + utf8(fresh), mix.groups.size() < mostGroups, false, [&model, strip, label, fresh] {
+        model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = addGroup(m, fresh); });
+    });
+    menu.setLookAndFeel(&from.getLookAndFeel());
+    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from));
+}
+
+} // namespace
 
 StripView::StripView(MixerModel& model, int strip)
     : StripParts{labelOf(model.mix(), strip)}
@@ -50,7 +74,7 @@ void StripView::change(const juce::String& name, const std::function<void(Strip&
 }
 
 void StripView::fillOutputs() {
-    output_.clear(juce::dontSendNotification);
+    output_.clear(quietly);
     output_.addItem("none", 1);
     std::vector<juce::String> names;
     const DeviceChoice& choice = model_.device().choice();
@@ -71,7 +95,7 @@ void StripView::fillOutputs() {
         output_.setItemEnabled(k++ + 2, !isInUse);
     }
     if (own >= model_.device().outputs()) output_.addItem(utf8(choice.nameOf(own)) + gone, own + 2);
-    output_.setSelectedId(strip().output + 2, juce::dontSendNotification);
+    output_.setSelectedId(strip().output + 2, quietly);
 }
 
 void StripView::mixChanged() {
@@ -88,8 +112,7 @@ void StripView::refresh(const MixerMoment& moment) {
     if (!isThere()) return;
     if (strip().output >= 0 && isPlaced_ != model_.output().isPlaced(static_cast<int>(index_))) fillOutputs();
     meter_.set(moment.meters.peaks[index_], moment.holds[index_]);
-    level_.setText(inG(model_.isSilent() ? 0.0 : gOf(model_, index_, moment.holds[index_])),
-                   juce::dontSendNotification);
+    level_.setText(inG(model_.isSilent() ? 0.0 : gOf(model_, index_, moment.holds[index_])), quietly);
 }
 
 bool StripView::keyPressed(const juce::KeyPress& key) {
@@ -176,8 +199,18 @@ void StripsPanel::mixChanged() {
     const bool areOther = labels != labels_, areOtherGroups = names != groupNames_;
     labels_ = labels;
     groupNames_ = names;
-    if (areOther) makeStrips();
-    if (areOtherGroups) makeGroups();
+    const auto make = [this](auto& views, int count) {
+        using View = typename std::decay_t<decltype(views)>::value_type::element_type;
+        views.clear();
+        for (int k = 0; k < count; ++k)
+            row_.addAndMakeVisible(*views.emplace_back(std::make_unique<View>(model_, k)));
+        for (auto& view : views) prepareControls(*view); // colours depend on the parent component
+    };
+    if (areOther) {
+        make(strips_, model_.mix().count());
+        for (auto& group : groups_) group->toFront(false);
+    }
+    if (areOtherGroups) make(groups_, names.size());
     for (auto& strip : strips_) strip->mixChanged();
     for (auto& group : groups_) group->mixChanged();
     if (areOther || areOtherGroups) {
@@ -186,25 +219,6 @@ void StripsPanel::mixChanged() {
     }
     attach_.setVisible(model_.mix().count() < limits::maxEnchanters);
     master_.mixChanged();
-}
-
-void StripsPanel::makeStrips() {
-    strips_.clear();
-    for (int j = 0; j < model_.mix().count(); ++j) {
-        strips_.push_back(std::make_unique<StripView>(model_, j));
-        row_.addAndMakeVisible(*strips_.back());
-    }
-    for (auto& strip : strips_) prepareControls(*strip); // colours depend on the parent component
-    for (auto& group : groups_) group->toFront(false);
-}
-
-void StripsPanel::makeGroups() {
-    groups_.clear();
-    for (int k = 0; k < static_cast<int>(model_.mix().groups.size()); ++k) {
-        groups_.push_back(std::make_unique<GroupView>(model_, k));
-        row_.addAndMakeVisible(*groups_.back());
-    }
-    for (auto& group : groups_) prepareControls(*group);
 }
 
 void StripsPanel::refresh(const MixerMoment& moment) {
@@ -312,17 +326,16 @@ void GroupView::rename() {
     if (isFit && name != utf8(group().name))
         change("Name", [&](StripGroup& g) { g.name = name.toStdString(); });
     else
-        name_.setText(utf8(group().name), juce::dontSendNotification);
+        name_.setText(utf8(group().name), quietly);
 }
 
 void GroupView::mixChanged() {
-    if (!name_.isBeingEdited()) name_.setText(utf8(group().name), juce::dontSendNotification);
-    if (!fader_.isMouseButtonDown()) fader_.setValue(group().gainDb, juce::dontSendNotification);
-    level_.setText(group().gainDb <= leastStripDb ? juce::String{"silent"}
-                                                  : number(group().gainDb, 1) + " dB",
-                   juce::dontSendNotification);
+    if (!name_.isBeingEdited()) name_.setText(utf8(group().name), quietly);
+    if (!fader_.isMouseButtonDown()) fader_.setValue(group().gainDb, quietly);
+    level_.setText(
+        group().gainDb <= leastStripDb ? juce::String{"silent"} : number(group().gainDb, 1) + " dB", quietly);
     level_.setColour(juce::Label::textColourId, shade(*this, Shade::muted));
-    mute_.setToggleState(group().isMuted, juce::dontSendNotification);
+    mute_.setToggleState(group().isMuted, quietly);
     repaint();
 }
 
@@ -364,26 +377,6 @@ void GroupView::resized() {
     level_.setBounds(area.removeFromBottom(18));
     area.removeFromBottom(8);
     fader_.setBounds(area.withSizeKeepingCentre(32, area.getHeight()).expanded(0, 8));
-}
-
-void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& from) {
-    const auto& mix = model.mix();
-    const auto label = labelOf(mix, strip);
-    const auto put = [&model, strip, label](int group) {
-        model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = group; });
-    };
-    juce::PopupMenu menu;
-    menu.addSectionHeader("Group of " + label);
-    menu.addItem("None", true, mix.strips[strip].group < 0, [put] { put(-1); });
-    for (int k = 0; k < static_cast<int>(mix.groups.size()); ++k)
-        menu.addItem(utf8(nth(mix.groups, k).name), true, mix.strips[strip].group == k, [put, k] { put(k); });
-    menu.addSeparator();
-    const auto fresh = freeGroupName(mix);
-    menu.addItem("New: " + utf8(fresh), mix.groups.size() < mostGroups, false, [&model, strip, label, fresh] {
-        model.change("Group of " + label, [&](Mix& m) { m.strips[strip].group = addGroup(m, fresh); });
-    });
-    menu.setLookAndFeel(&from.getLookAndFeel());
-    menu.showMenuAsync(juce::PopupMenu::Options{}.withTargetComponent(from));
 }
 
 } // namespace physvib

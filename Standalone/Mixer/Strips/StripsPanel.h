@@ -70,9 +70,6 @@ private:
     std::unique_ptr<juce::TextButton> remove_;
 };
 
-/// Menu of groups for a strip, including a new one. Message thread.
-void showGroupMenu(MixerModel& model, std::size_t strip, juce::Component& from);
-
 class StripsPanel final : public juce::Component {
 public:
     explicit StripsPanel(MixerModel& model);
@@ -94,8 +91,6 @@ private:
 
     static constexpr int between = 6, attachWidth = 52;
     int fixedWidth() const; ///< of the row, beside its strips
-    void makeStrips();
-    void makeGroups();
 
     MixerModel& model_;
     struct Row final : juce::Viewport {

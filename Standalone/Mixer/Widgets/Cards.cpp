@@ -38,9 +38,6 @@ void askForFiles(juce::Component& from, const FileCard::Choice& choice,
     if (host == nullptr) return;
     auto card = std::make_unique<FileCard>(choice);
     card->onCancel = [safe = From{&from}, cancelled = std::move(cancelled)] { closeThen(safe, cancelled); };
-    card->onFile = [safe = From{&from}, use](const juce::File& file) {
-        closeThen(safe, [use, file] { use({file}); });
-    };
     card->onFiles = [safe = From{&from}, use](const juce::Array<juce::File>& files) {
         closeThen(safe, [use, files] { use(files); });
     };
@@ -53,13 +50,12 @@ void askForValues(juce::Component& from, const juce::String& title, const juce::
     auto* host = hostOf(from);
     if (host == nullptr) return;
     const auto card = std::make_shared<juce::Component::SafePointer<QuestionCard>>();
-    std::vector<QuestionCard::Answer> answers{{answer,
-                                               [safe = From{&from}, card, fields, use = std::move(use)] {
-                                                   juce::StringArray values;
-                                                   for (const auto& field : fields)
-                                                       values.add((*card)->value(field.title));
-                                                   closeThen(safe, [use, values] { use(values); });
-                                               }},
+    const auto accept = [safe = From{&from}, card, fields, use = std::move(use)] {
+        juce::StringArray values;
+        for (const auto& field : fields) values.add((*card)->value(field.title));
+        closeThen(safe, [use, values] { use(values); });
+    };
+    std::vector<QuestionCard::Answer> answers{{answer, accept},
                                               {"Cancel", [safe = From{&from}] { closeThen(safe, {}); }, true,
                                                juce::KeyPress{juce::KeyPress::escapeKey}}};
     auto made = std::make_unique<QuestionCard>(title, words, std::move(answers), fields);
@@ -99,8 +95,8 @@ Card::Card(int width)
 void Card::say(const juce::String& title, const juce::String& words) {
     setTitle(title);
     setDescription(words);
-    title_.setText(title, juce::dontSendNotification);
-    words_.setText(words, juce::dontSendNotification);
+    title_.setText(title, quietly);
+    words_.setText(words, quietly);
 }
 
 void Card::setAnswers(std::vector<juce::TextButton*> answers) {
@@ -108,7 +104,7 @@ void Card::setAnswers(std::vector<juce::TextButton*> answers) {
     answers_ = std::move(answers);
     for (auto* button : answers_) {
         if (button->getTitle().isEmpty()) button->setTitle(button->getButtonText());
-        button->setToggleState(button == answers_.front() && button->isEnabled(), juce::dontSendNotification);
+        button->setToggleState(button == answers_.front() && button->isEnabled(), quietly);
         addAndMakeVisible(button);
     }
 }
@@ -188,7 +184,7 @@ void FileCard::enter(const juce::File& folder) {
     files.sort();
     for (const auto& file : files)
         if (hasEnding(file)) entries_.add(file);
-    place_.setText(folder_.getFullPathName(), juce::dontSendNotification);
+    place_.setText(folder_.getFullPathName(), quietly);
     list_.deselectAllRows();
     list_.updateContent();
     list_.repaint();
@@ -210,7 +206,7 @@ void FileCard::accept() {
     }
     if (juce::isPositiveAndBelow(row, entries_.size()) && entries_[row].isDirectory())
         return enter(entries_[row]);
-    if (name().isEmpty()) return isFolder() ? onFile(folder_) : showFault("Expected a name", Shade::limit);
+    if (name().isEmpty()) return isFolder() ? onFiles({folder_}) : showFault("Expected a name", Shade::limit);
     const auto typed = folder_.getChildFile(name()); // or an absolute path
     if (typed.isDirectory()) return enter(typed);
     if (isFolder())
@@ -218,7 +214,7 @@ void FileCard::accept() {
     const auto file = hasEnding(typed) ? typed : typed.getSiblingFile(typed.getFileName() + choice_.ending);
     if (!choice_.isSaving)
         return file.existsAsFile()
-                   ? onFile(file)
+                   ? onFiles({file})
                    : showFault(file.getFileName() + ": expected a file that is there", Shade::limit);
     if (!file.getParentDirectory().isDirectory())
         return showFault(file.getParentDirectory().getFullPathName() + ": expected a folder that is there",
@@ -228,11 +224,11 @@ void FileCard::accept() {
         accept_.setButtonText("Replace");
         return showFault(file.getFileName() + " exists. Press again to replace it", Shade::now);
     }
-    onFile(file);
+    onFiles({file});
 }
 
 void FileCard::showFault(const juce::String& words, Shade which) {
-    fault_.setText(words, juce::dontSendNotification);
+    fault_.setText(words, quietly);
     fault_.setTone(which);
 }
 
@@ -286,7 +282,7 @@ public:
             if (!dots.empty()) item.image = dotOf(nth(dots, k));
             list.getRootMenu()->addItem(std::move(item));
         }
-        list.setText(field.value, juce::dontSendNotification);
+        list.setText(field.value, quietly);
         addAndMakeVisible(control());
     }
     juce::Component& control() { return list.getNumItems() > 0 ? static_cast<juce::Component&>(list) : text; }
@@ -365,7 +361,7 @@ void QuestionCard::setValue(const juce::String& field, const juce::String& value
     for (auto& input : inputs_)
         if (input->name == field) {
             input->text.setText(value, false);
-            input->list.setText(value, juce::dontSendNotification);
+            input->list.setText(value, quietly);
         }
 }
 

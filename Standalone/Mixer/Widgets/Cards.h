@@ -52,8 +52,7 @@ public:
 
     explicit FileCard(const Choice& choice);
 
-    std::function<void(const juce::File&)> onFile;
-    std::function<void(const juce::Array<juce::File>&)> onFiles; ///< two or more
+    std::function<void(const juce::Array<juce::File>&)> onFiles; ///< one, or several that were selected
     std::function<void()> onCancel;
 
     void enter(const juce::File& folder);

@@ -27,7 +27,7 @@ MasterStrip::MasterStrip(MixerModel& model, bool isFlat)
 }
 
 void MasterStrip::mixChanged() {
-    if (!fader_.isMouseButtonDown()) fader_.setValue(model_.mix().levelDb, juce::dontSendNotification);
+    if (!fader_.isMouseButtonDown()) fader_.setValue(model_.mix().levelDb, quietly);
     repaint();
 }
 

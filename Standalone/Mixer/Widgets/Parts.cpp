@@ -10,7 +10,7 @@ namespace physvib {
 namespace {
 
 juce::Path outlineOf(Sign sign) {
-    juce::Path p;
+    juce::Path p, line;
     switch (sign) {
     case Sign::play: p.addTriangle(-4.0f, -6.0f, -4.0f, 6.0f, 6.0f, 0.0f); break;
     case Sign::pause:
@@ -21,41 +21,35 @@ juce::Path outlineOf(Sign sign) {
         p.addTriangle(-6.0f, -5.5f, -6.0f, 5.5f, 2.0f, 0.0f);
         p.addRectangle(3.5f, -5.5f, 2.5f, 11.0f);
         break;
-    case Sign::restart: {
-        juce::Path arc;
-        arc.addCentredArc(0.0f, 0.0f, 5.5f, 5.5f, 0.0f, -2.2f, 2.6f, true);
-        juce::PathStrokeType{2.0f}.createStrokedPath(p, arc);
+    case Sign::restart:
+        line.addCentredArc(0.0f, 0.0f, 5.5f, 5.5f, 0.0f, -2.2f, 2.6f, true);
+        juce::PathStrokeType{2.0f}.createStrokedPath(p, line);
         p.addTriangle(-8.2f, -1.0f, -1.6f, -2.2f, -5.6f, -7.0f);
         break;
-    }
     case Sign::save: // down into a tray
         p.addRectangle(-1.0f, -7.0f, 2.0f, 7.0f);
         p.addTriangle(-4.5f, -1.5f, 4.5f, -1.5f, 0.0f, 3.5f);
         p.addRectangle(-7.0f, 5.0f, 14.0f, 2.0f);
         break;
     case Sign::undo:
-    case Sign::redo: {
-        juce::Path arc;
-        arc.addCentredArc(0.5f, 1.5f, 5.5f, 4.5f, 0.0f, -1.3f, 2.6f, true);
-        juce::PathStrokeType{2.0f}.createStrokedPath(p, arc);
+    case Sign::redo:
+        line.addCentredArc(0.5f, 1.5f, 5.5f, 4.5f, 0.0f, -1.3f, 2.6f, true);
+        juce::PathStrokeType{2.0f}.createStrokedPath(p, line);
         p.addTriangle(-8.0f, 0.5f, -1.0f, 1.5f, -6.5f, -5.5f);
         if (sign == Sign::redo) p.applyTransform(juce::AffineTransform::scale(-1.0f, 1.0f));
         break;
-    }
     case Sign::plus:
         p.addRectangle(-6.0f, -1.0f, 12.0f, 2.0f);
         p.addRectangle(-1.0f, -6.0f, 2.0f, 12.0f);
         break;
-    case Sign::sweep: { // a wave of rising frequency
-        juce::Path wave;
-        wave.startNewSubPath(-9.0f, 0.0f);
+    case Sign::sweep: // a wave of rising frequency
+        line.startNewSubPath(-9.0f, 0.0f);
         for (int k = 1; k <= 54; ++k) {
             const float t = static_cast<float>(k) / 54.0f;
-            wave.lineTo(-9.0f + 18.0f * t,
+            line.lineTo(-9.0f + 18.0f * t,
                         -4.5f * std::sin(juce::MathConstants<float>::twoPi * (0.7f * t + 2.0f * t * t)));
         }
-        juce::PathStrokeType{1.6f}.createStrokedPath(p, wave);
-    }
+        juce::PathStrokeType{1.6f}.createStrokedPath(p, line);
     }
     return p;
 }
@@ -173,7 +167,7 @@ void prepareControls(juce::Component& root) {
 
 Caption::Caption(const juce::String& words, Shade tone)
     : tone_{tone} {
-    setText(words, juce::dontSendNotification);
+    setText(words, quietly);
     setFont(text::font(text::small));
     setBorderSize({0, 0, 0, 0});
 }
@@ -364,7 +358,7 @@ void TabPanel::choose(const juce::String& name) {
     for (std::size_t i = 0; i < pages_.size(); ++i) {
         const bool isChosen = pages_[i].name->getName() == name;
         if (isChosen) chosen_ = i;
-        pages_[i].name->setToggleState(isChosen, juce::dontSendNotification);
+        pages_[i].name->setToggleState(isChosen, quietly);
     }
     setFold(fold_);
     if (onOpen) onOpen(true);

@@ -9,6 +9,8 @@
 
 namespace physvib {
 
+constexpr auto quietly = juce::dontSendNotification; ///< a control is set: nobody is called
+
 enum class Sign { play, pause, step, restart, plus, sweep, save, undo, redo };
 
 /// Button with a drawn icon; `name` is for screen readers and the tooltip.
@@ -150,7 +152,7 @@ public:
         setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
         setRotaryParameters(0.0f, juce::MathConstants<float>::twoPi, false);
         setRange(-180.0, 180.0, 1.0);
-        setValue(0.0, juce::dontSendNotification);
+        setValue(0.0, quietly);
         setDoubleClickReturnValue(true, 0.0);
     }
     /// Angle for a TiltAction.

@@ -235,7 +235,7 @@ void FirstStart::show() {
     const bool isTest = tested_ >= 0;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
         rows_[i]->setVisible(!isTest);
-        rows_[i]->setToggleState(static_cast<int>(i) == chosen_, juce::dontSendNotification);
+        rows_[i]->setToggleState(static_cast<int>(i) == chosen_, quietly);
     }
     if (!isTest) {
         const bool hasChoice = choices_.size() > 1;

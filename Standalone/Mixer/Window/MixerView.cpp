@@ -466,7 +466,7 @@ void MixerView::placeTrouble(juce::Rectangle<int> banner) {
     const bool isBelow = banner.getWidth() - buttonsWidth < leastWords;
     trouble_.setBorderSize({0, panelInset, isBelow ? high : 0, isBelow ? 4 : buttonsWidth + 4});
     const int room = banner.getWidth() - trouble_.getBorderSize().getLeftAndRight() - 2;
-    trouble_.setText(fittingWords(trouble_.getTooltip(), font, room), juce::dontSendNotification);
+    trouble_.setText(fittingWords(trouble_.getTooltip(), font, room), quietly);
     const int wanted =
         std::max(high, text::high(font, trouble_.getText(), room) + between) + (isBelow ? high : 0);
     banner = banner.getY() > world_.getBounds().getCentreY() ? banner.withTop(banner.getBottom() - wanted)

@@ -143,7 +143,9 @@ MixerWindow::MixerWindow(AudioDrivers drivers, const juce::String& device, const
     const auto& chosen = settings.getValue("device");
     const bool isFirst = device.isEmpty() && !settings.getBoolValue(chosenSetting) &&
                          (chosen.isEmpty() || chosen.startsWith(juce::String{noDeviceType} + ":"));
-    if (isFirst && !endedBadly) later(*this, [](MixerWindow& window) { window.showFirstStart(); });
+    if (isFirst && !endedBadly)
+        later(*this,
+              [](MixerWindow& window) { window.addFirstStart(feltChoices(window.drivers_, likelySinks())); });
     reportInstead();
     offerRecovery();
     if (!files_.settingsFault().empty())
@@ -183,17 +185,19 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused,
     setContentNonOwned(view_.get(), getWidth() == 0);
     document_ = document;
     savedEdits_ = model_->edits();
-    view_->topBar().onMenu = [this](juce::Component& from) { showMenu(from); };
-    view_->topBar().onRecord = [this] { record(); };
-    view_->topBar().onSave = [this] { save(); };
-    view_->topBar().onDevice = [this] { view_->tabs().choose("Output"); };
+    const auto& settings = files_.settings();
+    auto& bar = view_->topBar();
+    bar.onMenu = [this](juce::Component& from) { showMenu(from); };
+    bar.onRecord = [this] { record(); };
+    bar.onSave = [this] { save(); };
+    bar.onDevice = [this] { view_->tabs().choose("Output"); };
     model_->device().onSinksWanted = [this](const DeviceChoice& choice) {
         later(*this, [choice](MixerWindow& window) { window.useSinks(choice); }); // the calling tab goes with
                                                                                   // its model
     };
-    view_->topBar().onOpenScene = [this] { import("Scene"); };
-    view_->topBar().setOwnScenes(files_.ownScenes());
-    view_->topBar().onOwnScene = [this](const juce::File& own) { openFile(own); };
+    bar.onOpenScene = [this] { import("Scene"); };
+    bar.setOwnScenes(files_.ownScenes());
+    bar.onOwnScene = [this](const juce::File& own) { openFile(own); };
     model_->recording().onEnd = [this](const juce::File& file, const juce::String& error) {
         lastRecording_ = file;
         view_->topBar().setRecording(false);
@@ -205,18 +209,17 @@ void MixerWindow::play(Mix mix, const juce::File& document, bool isPaused,
             announceSaved("Recorded, with its events beside it:", file,
                           {"Play", [this, file] { model_->strikes().playTake(file); }});
     };
-    OscChoice osc{oscUseNamed(files_.settings().getValue("osc")),
-                  files_.settings().getValue("osc-to").toStdString(),
-                  files_.settings().getDoubleValue("osc-turn")};
+    OscChoice osc{oscUseNamed(settings.getValue("osc")), settings.getValue("osc-to").toStdString(),
+                  settings.getDoubleValue("osc-turn")};
     if (const auto error = model_->inputs().use(osc); !error.empty()) {
         osc.receiver.clear(); // the host name cannot be resolved now
         model_->inputs().use(osc);
         model_->report("OSC: " + utf8(error));
     }
-    model_->setDisplayWidth(1e-3 * files_.settings().getDoubleValue(displayWidthSetting));
-    view_->setTheme(files_.settings().getValue("look") == "light" ? Theme::light : Theme::dark);
-    view_->setDividers(Dividers::of(files_.settings().getValue("panels")));
-    view_->setOrder(files_.settings().getValue(orderSetting));
+    model_->setDisplayWidth(1e-3 * settings.getDoubleValue(displayWidthSetting));
+    view_->setTheme(settings.getValue("look") == "light" ? Theme::light : Theme::dark);
+    view_->setDividers(Dividers::of(settings.getValue("panels")));
+    view_->setOrder(settings.getValue(orderSetting));
     view_->grabKeyboardFocus();
     nameWindow();
     if (wasAsked) offerRecovery();
@@ -233,14 +236,13 @@ void MixerWindow::useSinks(const DeviceChoice& choice) {
         history->drawn.emplace_back(model_->mix().scene, mix.scene);
         play(std::move(mix), document_, model_->session().world().slowness() == 0, history);
         if (wasChanged) savedEdits_ = neverSaved;
-        if (isFirst && !choice.sinks.empty()) return testBeside(kindOf(choice.sinks.front()).actuators);
+        if (isFirst && !choice.sinks.empty())
+            return addFirstStart({}).test(kindOf(choice.sinks.front()).actuators);
         view_->tabs().choose("Output"); // the tab where it was chosen
     };
     askThen(use, "Another output begins the session anew: mix, drawing and undo steps stay, its past is "
                  "lost.");
 }
-
-void MixerWindow::showFirstStart() { addFirstStart(feltChoices(drivers_, likelySinks())); }
 
 FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
     auto card = std::make_unique<FirstStart>(*model_, std::move(choices));
@@ -256,8 +258,6 @@ FirstStart& MixerWindow::addFirstStart(std::vector<FeltChoice> choices) {
     view_->setFirstStart(std::move(card));
     return shown;
 }
-
-void MixerWindow::testBeside(int outputs) { addFirstStart({}).test(outputs); }
 
 void MixerWindow::reportInstead() {
     const auto& wanted = device_.name;
@@ -382,11 +382,6 @@ void MixerWindow::setTheme(Theme theme) {
     files_.settings().setValue("look", theme == Theme::light ? "light" : "dark");
 }
 
-void MixerWindow::setDisplayWidth(double mm) {
-    model_->setDisplayWidth(1e-3 * mm);
-    files_.settings().setValue(displayWidthSetting, mm);
-}
-
 void MixerWindow::chooseFolder() {
     askForFile(view_->topBar(),
                {"The folder of recordings, sessions, movies and studies", {}, folder_->place()},
@@ -407,13 +402,22 @@ void MixerWindow::askDisplayWidth() {
         [this](const juce::StringArray& values) {
             const auto& words = values[0];
             const double mm = words.isEmpty() ? 0.0 : words.replaceCharacter(',', '.').getDoubleValue();
-            if (words.isEmpty() || isDisplayWidth(1e-3 * mm)) return setDisplayWidth(mm);
-            say("Width of the display: expected " + number(1e3 * minDisplayMetres, 0) + " to " +
-                number(1e3 * maxDisplayMetres, 0) + " mm, found " + words);
+            if (words.isNotEmpty() && !isDisplayWidth(1e-3 * mm))
+                return say("Width of the display: expected " + number(1e3 * minDisplayMetres, 0) + " to " +
+                           number(1e3 * maxDisplayMetres, 0) + " mm, found " + words);
+            model_->setDisplayWidth(1e-3 * mm);
+            files_.settings().setValue(displayWidthSetting, mm);
         },
         "Drags in the world are measured in metres of the screen. Measure its picture from left to right, in "
-        "mm; "
-        "empty: as the system says.");
+        "mm; empty: as the system says.");
+}
+
+// Plus needs Shift on some keyboards, and has a key of its own beside the digits.
+static int zoomStepOf(const juce::KeyPress& key) {
+    if (!key.getModifiers().isCommandDown()) return 0;
+    const int code = key.getKeyCode();
+    if (code == '+' || code == '=' || code == juce::KeyPress::numberPadAdd) return 1;
+    return code == '-' || code == juce::KeyPress::numberPadSubtract ? -1 : 0;
 }
 
 bool MixerWindow::keyPressed(const juce::KeyPress& key) {
@@ -733,7 +737,8 @@ void MixerWindow::ask(const juce::String& title, const juce::String& words,
                       std::vector<std::pair<juce::String, std::function<void()>>> answers,
                       const std::vector<QuestionCard::Field>& fields) {
     std::vector<QuestionCard::Answer> all;
-    for (auto& [answer, act] : answers) all.push_back({answer, std::move(act)});
+    for (auto& [answer, act] : answers)
+        all.push_back({answer, [this, act = std::move(act)] { view_->setCard(nullptr), act(); }});
     all.push_back(
         {"Cancel", [this] { view_->setCard(nullptr); }, true, juce::KeyPress{juce::KeyPress::escapeKey}});
     view_->setQuestion(std::make_unique<QuestionCard>(title, words, std::move(all), fields));
@@ -741,16 +746,7 @@ void MixerWindow::ask(const juce::String& title, const juce::String& words,
 
 void MixerWindow::askThen(std::function<void()> goOn, const juce::String& words) {
     if (!isChanged()) return goOn();
-    ask("Save the session?", words,
-        {{"Save",
-          [this, goOn] {
-              view_->setCard(nullptr);
-              save(goOn);
-          }},
-         {"Do not save", [this, goOn] {
-              view_->setCard(nullptr);
-              goOn();
-          }}});
+    ask("Save the session?", words, {{"Save", [this, goOn] { save(goOn); }}, {"Do not save", goOn}});
 }
 
 void MixerWindow::newDocument() {
@@ -1009,13 +1005,12 @@ void MixerWindow::share(bool isElsewhere) {
     const auto kept = files_.settings().getValue(pageSetting);
     const auto page = served_.isNotEmpty() ? served_ : isLoopback(kept) ? juce::String{} : kept;
     if (page.isEmpty() && !isElsewhere) {
-        const auto then = [this](auto act) { return [this, act] { view_->setCard(nullptr), act(); }; };
         const bool canServe = PageServer::isThere();
         std::vector<std::pair<juce::String, std::function<void()>>> ways{
-            {"Save movie" + dots(), then([this] { saveMovie(); })},
-            {"Save as scene" + dots(), then([this] { saveScene(false, folderOfDocuments()); })},
-            {"Other page" + dots(), then([this] { share(true); })}};
-        if (canServe) ways.insert(ways.begin(), {serveWords, then([this] { serve(); })});
+            {"Save movie" + dots(), [this] { saveMovie(); }},
+            {"Save as scene" + dots(), [this] { saveScene(false, folderOfDocuments()); }},
+            {"Other page" + dots(), [this] { share(true); }}};
+        if (canServe) ways.insert(ways.begin(), {serveWords, [this] { serve(); }});
         return ask("Share the world",
                    canServe
                        ? "Serve it here gives a web page with this world to phones in this network, with a "
@@ -1028,13 +1023,14 @@ void MixerWindow::share(bool isElsewhere) {
     const auto at = [behind = utf8(link.value)](const juce::String& address) {
         return address.isEmpty() ? address : address.upToFirstOccurrenceOf("#", false, false) + "#" + behind;
     };
-    const auto whole = [this, at] {
-        const auto address = view_->question()->value(pageField);
-        if (address != served_) files_.settings().setValue(pageSetting, address);
-        view_->setCard(nullptr);
-        return at(address);
+    const auto typed = std::make_shared<juce::String>(page);
+    const auto whole = [this, at, typed] {
+        if (*typed != served_) files_.settings().setValue(pageSetting, *typed);
+        return at(*typed);
     };
-    const auto show = [at, isServed = served_.isNotEmpty()](QuestionCard& card, const juce::String& address) {
+    const auto show = [at, typed, isServed = served_.isNotEmpty()](QuestionCard& card,
+                                                                   const juce::String& address) {
+        *typed = address;
         const bool isAlone = isLoopback(address), isThere = address.isNotEmpty();
         card.setValue(linkField, at(address));
         for (const char* words : {copyWords, openWords}) card.enable(words, isThere);
@@ -1058,8 +1054,7 @@ void MixerWindow::share(bool isElsewhere) {
              model_->announce("Copied a link of " + juce::String{words.length()} + " characters");
          }},
         {openWords, [whole] { openLink(whole()); }}};
-    if (served_.isEmpty() && PageServer::isThere())
-        answers.push_back({serveWords, [this] { view_->setCard(nullptr), serve(); }});
+    if (served_.isEmpty() && PageServer::isThere()) answers.push_back({serveWords, [this] { serve(); }});
     ask("Share the world", {}, std::move(answers), {{pageField, page, {}, {}, show}, {linkField, {}}});
     show(*view_->question(), page);
 }
@@ -1093,14 +1088,6 @@ void MixerWindow::stepZoom(int by) {
     const int now = juce::roundToInt(100.0f * juce::Desktop::getInstance().getGlobalScaleFactor());
     const auto at = std::ranges::lower_bound(zooms, now) - zooms.begin() + by;
     if (at >= 0 && at < std::ssize(zooms) && fits(nth(zooms, at), displayRoom())) setZoom(nth(zooms, at));
-}
-
-// Plus needs Shift on some keyboards, and has a key of its own beside the digits.
-int MixerWindow::zoomStepOf(const juce::KeyPress& key) {
-    if (!key.getModifiers().isCommandDown()) return 0;
-    const int code = key.getKeyCode();
-    if (code == '+' || code == '=' || code == juce::KeyPress::numberPadAdd) return 1;
-    return code == '-' || code == juce::KeyPress::numberPadSubtract ? -1 : 0;
 }
 
 // The window keeps its size on the screen.

@@ -65,9 +65,7 @@ public:
 
 private:
     void timerCallback() override;
-    void showFirstStart();
     FirstStart& addFirstStart(std::vector<FeltChoice> choices);
-    void testBeside(int outputs);
     void reportInstead();
     void start(const juce::File& file);
     void play(Mix mix, const juce::File& document, bool isPaused = false,
@@ -107,12 +105,10 @@ private:
     void showMenu(juce::Component& from);
     void setTheme(Theme theme);
     void applyZoom();
-    static int zoomStepOf(const juce::KeyPress& key);
     juce::PopupMenu fileMenu();
     juce::PopupMenu editMenu();
     juce::PopupMenu worldMenu();
     juce::PopupMenu viewMenu();
-    void setDisplayWidth(double mm);
     void askDisplayWidth();
     void nameWindow();
     void say(const juce::String& words) { model_->report(words); }

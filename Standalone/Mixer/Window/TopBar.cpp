@@ -91,7 +91,7 @@ void TopBar::setOwnScenes(const juce::Array<juce::File>& files) {
 }
 
 void TopBar::listScenes() {
-    scene_.clear(juce::dontSendNotification);
+    scene_.clear(quietly);
     for (int id = 1; const auto& scene : builtInScenes()) scene_.addItem(titleOf(scene.name), id++);
     scene_.addSeparator();
     for (int k = 0; k < own_.size(); ++k)
@@ -115,16 +115,16 @@ void TopBar::chooseScene() {
 
 void TopBar::mixChanged() {
     const auto& mix = model_.mix();
-    scene_.setText(titleOf(mix.scene->name), juce::dontSendNotification);
-    seed_.setText("seed " + juce::String{static_cast<juce::int64>(mix.seed)}, juce::dontSendNotification);
+    scene_.setText(titleOf(mix.scene->name), quietly);
+    seed_.setText("seed " + juce::String{static_cast<juce::int64>(mix.seed)}, quietly);
     const int slowness = model_.session().world().slowness();
     pause_.setSign(slowness == 0 ? Sign::play : Sign::pause,
                    slowness == 0 ? "Let the world go on (Space)" : "Pause the world (Space)");
-    pause_.setToggleState(slowness == 0, juce::dontSendNotification);
+    pause_.setToggleState(slowness == 0, quietly);
     step_.setEnabled(slowness == 0);
     slow_.setButtonText(slowness < 2 ? juce::String::fromUTF8("1\xc3\x97") : "1/" + juce::String{slowness});
-    slow_.setToggleState(slowness > 1, juce::dontSendNotification);
-    silence_.setToggleState(model_.isSilent(), juce::dontSendNotification);
+    slow_.setToggleState(slowness > 1, quietly);
+    silence_.setToggleState(model_.isSilent(), quietly);
     silence_.setButtonText(model_.isSilent() ? "SILENT: press to feel" : "SILENCE  Esc");
     const auto& history = model_.undoManager();
     undo_.setEnabled(history.canUndo());
@@ -134,7 +134,7 @@ void TopBar::mixChanged() {
 }
 
 void TopBar::setRecording(bool isRecording) {
-    record_.setToggleState(isRecording, juce::dontSendNotification);
+    record_.setToggleState(isRecording, quietly);
     isRecording_ = isRecording;
     recordedFromNs_ = -1;
     record_.setButtonText(disc + (isRecording ? "Recording" : "Record"));
@@ -142,7 +142,7 @@ void TopBar::setRecording(bool isRecording) {
 
 void TopBar::refresh(const MixerMoment& moment) {
     const int turn = looks_++ % looksPerNumbers; // numbers that change 30 times a second are illegible
-    if (turn % looksPerTime == 0) time_.setText(clock(moment.session.sessionNs), juce::dontSendNotification);
+    if (turn % looksPerTime == 0) time_.setText(clock(moment.session.sessionNs), quietly);
     if (turn != 0) return;
     if (isRecording_) {
         if (recordedFromNs_ < 0) recordedFromNs_ = moment.session.sessionNs;

@@ -38,27 +38,32 @@ public:
         window.view().setMode(Mode::engineer); // has every control
         runFor(0.3);
     }
-    void press(juce::Point<float> at) { send(at, juce::ModifierKeys::leftButtonModifier); }
-    void move(juce::Point<float> at, int buttons) { send(at, buttons); }
-    void release(juce::Point<float> at) { send(at, 0); }
+    /// What the display tells of the mouse: where it is, with which buttons and keys.
+    void move(juce::Point<float> at, int buttons = 0) {
+        // keys are told apart from the mouse
+        juce::ModifierKeys::currentModifiers = juce::ModifierKeys{buttons}.withoutMouseButtons();
+        // not behind what JUCE itself tells of the mouse
+        timeMs_ = std::max(timeMs_ + 20, juce::Time::currentTimeMillis());
+        window_.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at,
+                                            juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
+        runFor(0.03);
+    }
     void click(juce::Component& c) { click(c, c.getLocalBounds().toFloat().getCentre()); }
     void click(juce::Component& c, juce::Point<float> inIt) {
         const auto at = placeOf(c, inIt);
-        send(at, 0);
-        press(at);
-        release(at);
+        for (const int buttons : {0, left, 0}) move(at, buttons);
     }
     void longClick(juce::Component& c, juce::Point<float> inIt) {
-        press(placeOf(c, inIt));
+        move(placeOf(c, inIt), left);
         timeMs_ += 1000;
-        release(placeOf(c, inIt));
+        move(placeOf(c, inIt));
     }
     void drag(juce::Point<float> from, juce::Point<float> to, int keys = 0) {
-        const int pressed = juce::ModifierKeys::leftButtonModifier | keys;
-        send(from, keys);
-        send(from, pressed);
+        const int pressed = left | keys;
+        move(from, keys);
+        move(from, pressed);
         for (int k = 1; k <= 10; ++k) move(from + (to - from) * (static_cast<float>(k) / 10.0f), pressed);
-        send(to, keys);
+        move(to, keys);
     }
     void key(int code, int modifiers = 0) {
         window_.getPeer()->handleKeyPress(juce::KeyPress{code, modifiers, 0});
@@ -72,15 +77,7 @@ public:
     }
 
 private:
-    void send(juce::Point<float> at, int buttons) {
-        // keys are told apart from the mouse
-        juce::ModifierKeys::currentModifiers = juce::ModifierKeys{buttons}.withoutMouseButtons();
-        // not behind what JUCE itself tells of the mouse
-        timeMs_ = std::max(timeMs_ + 20, juce::Time::currentTimeMillis());
-        window_.getPeer()->handleMouseEvent(juce::MouseInputSource::InputSourceType::mouse, at,
-                                            juce::ModifierKeys{buttons}, 0.0f, 0.0f, timeMs_);
-        runFor(0.03);
-    }
+    static constexpr int left = juce::ModifierKeys::leftButtonModifier;
     MixerWindow& window_;
     juce::int64 timeMs_ = juce::Time::currentTimeMillis();
 };
@@ -94,12 +91,6 @@ juce::AudioBuffer<float> samplesOf(const juce::File& file) {
                                      static_cast<int>(reader->lengthInSamples)};
     reader->read(&samples, 0, samples.getNumSamples(), 0, true, true);
     return samples;
-}
-
-EnchanterLayout presetOf(std::string_view name) {
-    EnchanterLayout layout;
-    EXPECT_TRUE(layoutPreset(name, layout));
-    return layout;
 }
 
 constexpr const char* none = "None:no device";
@@ -128,6 +119,17 @@ struct Window : Windows {
     MixerView& view = window.view();
     WorldView& world = view.world().view();
     DrawPane& pane = view.world().drawing();
+
+    /// In the test's folder.
+    void saveAs(const juce::String& name) {
+        auto& card = fileCard(window);
+        card.enter(folder.folder);
+        card.setName(name);
+        card.accept();
+    }
+    juce::Point<float> at(double x, double y) { return hand.placeOf(world, world.placeOfShare({x, y})); }
+    const std::vector<LiveInput>& inputs() { return model.saved().log.takes.back().inputs; }
+    std::size_t bodies() { return model.world().drawing().drawn().bodies.size(); }
 };
 
 TEST_F(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindowsSize) {
@@ -141,7 +143,7 @@ TEST_F(Window, ADragOf10MillimetresOfTheScreenIs320NewtonSecondsWhateverTheWindo
         runFor(0.2);
         const auto ball = world.placeOfBody("large rubber ball");
         hand.drag(hand.placeOf(world, ball), hand.placeOf(world, ball + juce::Point<float>{32.0f, -24.0f}));
-        const auto& pulls = model.saved().log.takes.back().inputs;
+        const auto& pulls = inputs();
         ASSERT_EQ(pulls.size(), ++drags);
         const auto push = std::get<ImpulseAction>(pulls.back().action).newtonSeconds;
         EXPECT_NEAR(push.x, 256.0, 0.01) << size.x; // pixels are floats
@@ -181,26 +183,26 @@ TEST_F(Window, ABodyIsHeldWithShiftUntilTheButtonIsReleased) {
     const auto to = ball + juce::Point<float>{-80.0f, 30.0f};
     hand.drag(hand.placeOf(world, ball + juce::Point<float>{5.0f, 0.0f}), hand.placeOf(world, to),
               juce::ModifierKeys::shiftModifier);
-    const auto inputs = model.saved().log.takes.back().inputs;
-    ASSERT_GE(inputs.size(), 3u);
+    const auto told = inputs();
+    ASSERT_GE(told.size(), 3u);
     const Scene& scene = model.world().scene();
     const auto left = world.placeOfShare({0.0, 0.0}), right = world.placeOfShare({1.0, 1.0});
-    for (std::size_t i = 0; i + 1 < inputs.size(); ++i) {
-        const auto& grip = std::get<GripAction>(inputs[i].action);
+    for (std::size_t i = 0; i + 1 < told.size(); ++i) {
+        const auto& grip = std::get<GripAction>(told[i].action);
         EXPECT_EQ(grip.body, "large rubber ball");
-        ASSERT_TRUE(grip.toMetres && grip.pointMetres) << i << " of " << inputs.size();
+        ASSERT_TRUE(grip.toMetres && grip.pointMetres) << i << " of " << told.size();
         EXPECT_NEAR(std::hypot(grip.pointMetres->x, grip.pointMetres->y),
                     5.0 / static_cast<double>(right.x - left.x) * scene.fieldWidthMetres, 0.01)
             << "where it was taken, turned with the ball";
         EXPECT_GT(grip.overSeconds, 0.0);
     }
-    const auto& last = std::get<GripAction>(inputs[inputs.size() - 2].action);
+    const auto& last = std::get<GripAction>(told[told.size() - 2].action);
     EXPECT_NEAR(last.toMetres->x,
                 static_cast<double>((to.x - left.x) / (right.x - left.x)) * scene.fieldWidthMetres, 0.01)
         << "the last place is told";
     EXPECT_NEAR(last.toMetres->y,
                 static_cast<double>((left.y - to.y) / (left.y - right.y)) * scene.fieldHeightMetres, 0.01);
-    EXPECT_FALSE(std::get<GripAction>(inputs.back().action).toMetres.has_value()) << "let go";
+    EXPECT_FALSE(std::get<GripAction>(told.back().action).toMetres.has_value()) << "let go";
     EXPECT_FALSE(world.isHolding());
     EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
 }
@@ -320,7 +322,6 @@ TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     EXPECT_EQ(model.mix().scene->materials, MixerModel::firstMix().scene->materials)
         << "not of the scene before";
     runFor(0.5);
-    const auto at = [&](double x, double y) { return hand.placeOf(world, world.placeOfShare({x, y})); };
     const auto draw = [&](DrawTool tool, juce::Point<float> from, juce::Point<float> to) {
         pane.use(tool);
         hand.drag(from, to);
@@ -335,7 +336,7 @@ TEST_F(Window, WhatIsDrawnAndPlayedByHandIsASceneThatGivesTheSameHits) {
     hand.key(juce::KeyPress::returnKey);
     draw(DrawTool::rope, at(0.85, 0.4), at(0.85, 0.8));
     const auto& drawn = model.world().drawing();
-    ASSERT_EQ(drawn.drawn().bodies.size(), 5U) << model.trouble();
+    ASSERT_EQ(bodies(), 5U) << model.trouble();
     ASSERT_EQ(drawn.drawn().joints.size(), 2U) << model.trouble();
     pane.use(DrawTool::choose);
     pane.choose({"polygon 1"});
@@ -505,8 +506,7 @@ TEST_F(Windows, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
         hand.drag(hand.placeOf(view, view.placeOfShare({0.4, 0.3})),
                   hand.placeOf(view, view.placeOfShare({0.6, 0.4})));
         runFor(0.3);
-        const Scene drawn = window.model().world().drawing().drawn();
-        ASSERT_EQ(drawn.bodies.size(), 2u) << window.model().trouble();
+        ASSERT_EQ(window.model().world().drawing().drawn().bodies.size(), 2u) << window.model().trouble();
         const double level = window.model().mix().levelDb;
         window.model().change("Master gain", [](Mix& mix) { mix.levelDb -= 6.0; });
         DeviceChoice other = window.model().device().choice();
@@ -515,17 +515,18 @@ TEST_F(Windows, AnotherOutputKeepsWhatWasDrawnAndItsUndoSteps) {
         ASSERT_TRUE(runUntil([&] { return window.view().question() != nullptr; }));
         window.view().question()->answer(answer);
         ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.size() == 1; }));
-        EXPECT_EQ(window.model().world().drawing().drawn().bodies.size(), drawn.bodies.size()) << answer;
+        const auto expect = [&](std::size_t bodies, double levelDb, const juce::String& when) {
+            EXPECT_EQ(window.model().world().drawing().drawn().bodies.size(), bodies) << when;
+            EXPECT_EQ(window.model().mix().levelDb, levelDb) << when;
+        };
+        expect(2, level - 6.0, answer);
         auto& undo = window.model().undoManager();
-        EXPECT_TRUE(undo.undo()) << "the fader";
-        EXPECT_EQ(window.model().mix().levelDb, level);
-        EXPECT_EQ(window.model().world().drawing().drawn().bodies.size(), drawn.bodies.size())
-            << "what was drawn before it stays";
-        EXPECT_TRUE(undo.undo()) << "the box";
-        EXPECT_EQ(window.model().world().drawing().drawn().bodies.size(), drawn.bodies.size() - 1);
+        EXPECT_TRUE(undo.undo());
+        expect(2, level, "the fader; what was drawn before it stays");
+        EXPECT_TRUE(undo.undo());
+        expect(1, level, "the box");
         EXPECT_TRUE(undo.redo() && undo.redo());
-        EXPECT_EQ(window.model().world().drawing().drawn().bodies.size(), drawn.bodies.size());
-        EXPECT_EQ(window.model().mix().levelDb, level - 6.0);
+        expect(2, level - 6.0, "both");
     }
 }
 
@@ -607,18 +608,17 @@ TEST_F(Window, ShareLeadsWhereAPersonCanGo) {
     auto& files = *view.question();
     EXPECT_EQ(files.getWidth(), QuestionCard::wide) << "no hole for a code";
     if (PageServer::isThere())
-        EXPECT_TRUE(dynamic_cast<juce::Button&>(*find(files, "Serve it here")).getToggleState());
+        EXPECT_TRUE(the<juce::Button>(files, "Serve it here").getToggleState());
     else
         EXPECT_TRUE(files.words().contains("physvib-page")) << files.words();
     for (const char* words : {"Save movie", "Save as scene"})
-        EXPECT_TRUE(dynamic_cast<juce::Button&>(*find(files, words + dots())).isEnabled()) << words;
+        EXPECT_TRUE(the<juce::Button>(files, words + dots()).isEnabled()) << words;
     files.answer("Save as scene" + dots());
-    FileCard* saving = nullptr;
-    ASSERT_TRUE(runUntil([&] { return (saving = dynamic_cast<FileCard*>(view.card())) != nullptr; }));
-    EXPECT_FALSE(saving->folder().isAChildOf(config)) << "nobody looks there";
-    EXPECT_FALSE(saving->folder().getFullPathName().contains("/."));
-    saving->setName("for a friend");
-    saving->accept();
+    auto& saving = fileCard(window);
+    EXPECT_FALSE(saving.folder().isAChildOf(config)) << "nobody looks there";
+    EXPECT_FALSE(saving.folder().getFullPathName().contains("/."));
+    saving.setName("for a friend");
+    saving.accept();
     ASSERT_TRUE(runUntil([&] { return model.trouble().contains("for a friend.json"); }));
     window.share();
     view.question()->answer("Other page" + dots());
@@ -641,12 +641,12 @@ TEST_F(Window, ShareLeadsWhereAPersonCanGo) {
         EXPECT_FALSE(said(*card).contains(nowhere)) << said(*card);
     EXPECT_TRUE(card->value("Link").isEmpty()) << "there is no page yet";
     const auto button = [card](const juce::String& words) -> juce::Button& {
-        return dynamic_cast<juce::Button&>(*find(*card, words));
+        return the<juce::Button>(*card, words);
     };
     EXPECT_FALSE(button("Copy the link").isEnabled());
     EXPECT_TRUE(button("Copy the link").getToggleState());
     EXPECT_TRUE(said(*card).contains("web page")) << said(*card);
-    auto& address = dynamic_cast<juce::TextEditor&>(*find(*card, "Address of the page"));
+    auto& address = the<juce::TextEditor>(*card, "Address of the page");
     const auto places = [&] {
         std::vector<juce::Rectangle<int>> all{card->getLocalBounds(), address.getScreenBounds()};
         for (const juce::String& words : {juce::String{"Copy the link"}, juce::String{"Open it"}})
@@ -680,7 +680,7 @@ TEST_F(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing)
         return fader == "Master gain" ? model.mix().levelDb : model.mix().strips[1].gainDb;
     };
     for (const juce::String title : {"Master gain", "Gain of B"}) {
-        auto& fader = dynamic_cast<juce::Slider&>(*find(view, title));
+        auto& fader = the<juce::Slider>(view, title);
         const float middle = 0.5f * static_cast<float>(fader.getWidth());
         const auto high = static_cast<float>(fader.getHeight());
         const auto edits = model.edits();
@@ -701,7 +701,7 @@ TEST_F(Window, AFaderGoesWhereItIsDraggedAndAClickBesideItsHandleChangesNothing)
 TEST_F(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
     ASSERT_TRUE(runUntil([&] { return model.look().session.sessionNs > 200'000'000; }));
     model.setSlowness(0);
-    const auto bodies = model.world().drawing().drawn().bodies.size();
+    const auto drawn = bodies();
     const auto edits = model.edits();
     auto& slow = *find(view, "Slow motion");
     const struct {
@@ -759,7 +759,7 @@ TEST_F(Window, BehindACardNothingHearsAKeyOrAClickButTheButtonThatSilences) {
         EXPECT_FALSE(window.isInterestedInFileDrag({folder("scene.json").getFullPathName()}));
         EXPECT_EQ(view.openCard(), opened) << card.name;
         EXPECT_EQ(model.edits(), edits) << card.name;
-        EXPECT_EQ(model.world().drawing().drawn().bodies.size(), bodies) << card.name;
+        EXPECT_EQ(bodies(), drawn) << card.name;
         EXPECT_EQ(model.session().world().slowness(), 0) << card.name;
         EXPECT_EQ(view.world().drawing().tool(), DrawTool::hand) << card.name;
         EXPECT_FALSE(view.isShow()) << card.name;
@@ -789,7 +789,6 @@ TEST_F(Window, APressThatClosesAMenuDrawsNothing) {
     window.newScene(SceneGround::floor);
     runFor(0.5);
     pane.use(DrawTool::ball);
-    const auto bodies = [&] { return model.world().drawing().drawn().bodies.size(); };
     const auto before = bodies();
     const auto place = world.placeOfShare({0.5, 0.5});
     for (const char* title : {"Menu", "Scene"}) {
@@ -863,7 +862,7 @@ TEST_F(Window, EscEndsADragAndAllIsAsBefore) {
         hand.key(juce::KeyPress::escapeKey);
         EXPECT_FALSE(view.world().isDragging());
         hand.move(to + juce::Point<float>{9.0f, 9.0f}, pressed);
-        hand.release(to);
+        hand.move(to);
         EXPECT_FALSE(model.isSilent()) << "nothing sounded";
     };
     const auto ball = world.placeOfBody("large rubber ball");
@@ -871,15 +870,14 @@ TEST_F(Window, EscEndsADragAndAllIsAsBefore) {
     EXPECT_EQ(model.edits(), edits) << "thrown";
     escapeDuring(ball, juce::ModifierKeys::shiftModifier);
     EXPECT_FALSE(world.isHolding());
-    EXPECT_FALSE(std::get<GripAction>(model.saved().log.takes.back().inputs.back().action).toMetres)
-        << "held";
+    EXPECT_FALSE(std::get<GripAction>(inputs().back().action).toMetres) << "held";
     escapeDuring(world.placeOfEnchanter(0));
     EXPECT_EQ(layoutJson(model.mix().layout), layoutJson(before.layout)) << "moved";
-    const auto bodies = model.world().drawing().drawn().bodies.size();
+    const auto drawn = bodies();
     for (const DrawTool tool : {DrawTool::ball, DrawTool::line, DrawTool::polygon}) {
         pane.use(tool);
         escapeDuring(world.placeOfShare({0.3, 0.7}));
-        EXPECT_EQ(model.world().drawing().drawn().bodies.size(), bodies) << static_cast<int>(tool);
+        EXPECT_EQ(bodies(), drawn) << static_cast<int>(tool);
     }
     pane.use(DrawTool::choose);
     escapeDuring(ball);
@@ -914,7 +912,7 @@ TEST_F(Window, TheRightButtonOfTheMousePressesNoButton) {
         for (const int buttons : {0, static_cast<int>(juce::ModifierKeys::rightButtonModifier)})
             hand.move(at, buttons);
         hand.move(at + juce::Point<float>{1.0f, 0.0f}, juce::ModifierKeys::rightButtonModifier);
-        hand.release(at);
+        hand.move(at);
     }
     EXPECT_EQ(model.mix().count(), 4);
     EXPECT_FALSE(model.mix().strips[0].isMuted);
@@ -974,8 +972,7 @@ TEST_F(Windows, ARouteThatWasChosenIsKeptByTheNextSessions) {
     {
         MixerWindow window{fakeDrivers({&hands}), "", folder("left.json"), config};
         window.model().change("Preset", [](Mix& mix) {
-            mix.layout = presetLayout("phone2");
-            mix.resizeStrips();
+            setLayout(mix, "phone2");
             giveOutput(mix.strips, 1, 2);
         });
         window.save();
@@ -1067,9 +1064,8 @@ TEST_F(Windows, AfterHeadphonesOfTheFirstStartEveryActuatorHasAnOutput) {
 
 TEST_F(Windows, ALayoutOfMoreEnchantersIsFeltWhereSomebodySaysSo) {
     const auto file = folder("eight.json");
-    EnchanterLayout eight = presetOf("phone4");
-    for (; eight.count < 8; ++eight.count)
-        eight.places[static_cast<std::size_t>(eight.count)] = {0.01 * eight.count, 0.01};
+    EnchanterLayout eight = presetLayout("phone4").geometry;
+    for (; eight.count < 8; ++eight.count) nth(eight.places, eight.count) = {0.01 * eight.count, 0.01};
     ASSERT_EQ(writeFile(pathOf(file), layoutJson(describeLayout("eight", eight))), "");
     MixerWindow window{onlyNoDevice(), none, {}, config};
     window.openFile(file);
@@ -1138,7 +1134,8 @@ TEST_F(Windows, SceneLayoutAndSessionFilesAreOpenedByNameAndByDrop) {
     Scene scene = *findBuiltInScene("drop");
     scene.name = "mine";
     folder("scene.json").replaceWithText(sceneJson(scene));
-    folder("layout.json").replaceWithText(layoutJson(describeLayout("three", presetOf("ring3"))));
+    folder("layout.json")
+        .replaceWithText(layoutJson(describeLayout("three", presetLayout("ring3").geometry)));
     folder("other.json").replaceWithText("{}");
     const auto start = [&](const char* name) {
         return std::make_unique<MixerWindow>(onlyNoDevice(), none, folder(name), config);
@@ -1193,13 +1190,12 @@ TEST_F(Window, ARenderIsAsLongAsWantedWhileTheSessionGoesOnAndACancelledOneLeave
     EXPECT_GT(samples.getMagnitude(18 * 48000, 2 * 48000), 0.0f) << "the box is shaken on";
 
     window.renderTo(folder("cancelled.wav"), 86'400.0);
-    auto* cancel = dynamic_cast<juce::Button*>(find(view, "Cancel the making of the file"));
-    ASSERT_NE(cancel, nullptr);
+    auto& cancel = the<juce::Button>(view, "Cancel the making of the file");
     EXPECT_EQ(juce::Component::getCurrentlyModalComponent(), nullptr) << "the mixer can be used meanwhile";
     runFor(0.3);
     window.renderTo(folder("second.wav"), 1.0);
     EXPECT_TRUE(model.trouble().contains("cancelled.wav")) << "one at a time: " << model.trouble();
-    cancel->onClick();
+    cancel.onClick();
     EXPECT_TRUE(runUntil([&] { return model.trouble().contains("nothing was written"); })) << model.trouble();
     EXPECT_EQ(find(view, "Progress"), nullptr);
     EXPECT_EQ(folder.folder.getNumberOfChildFiles(juce::File::findFiles, "*cancelled*"), 0);
@@ -1222,11 +1218,7 @@ TEST_F(Window, AMovieIsAsLongAsWantedAndOnAFullDiskOneLineSaysSoAndAllGoesOn) {
     EXPECT_EQ(view.card(), nullptr);
     model.report({}); // news wait behind trouble
     ask("1.0");
-    FileCard* card = nullptr;
-    ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(view.card())) != nullptr; }));
-    card->enter(folder.folder);
-    card->setName("short");
-    card->accept();
+    saveAs("short");
     const auto movie = folder("short.mp4");
     ASSERT_TRUE(runUntil([&] { return model.isNews() && model.trouble().contains("short.mp4"); }, 60.0));
     juce::MemoryBlock bytes;
@@ -1341,8 +1333,7 @@ TEST_F(Windows, ZoomAndDividersAreKeptAndAnUnsavedSessionIsAskedForInTheWindow) 
         chooseIn(window.view(), "Device", "Game controller: none is plugged in");
         window.model().messages().shown().act.run();
         ASSERT_TRUE(runUntil([&] { return window.view().question() != nullptr; }));
-        EXPECT_EQ(dynamic_cast<juce::ComboBox&>(*find(window.view(), "Device")).getText(),
-                  "No device: seen, not felt")
+        EXPECT_EQ(the<juce::ComboBox>(window.view(), "Device").getText(), "No device: seen, not felt")
             << "until the question is answered";
         window.view().question()->answer("Do not save");
         ASSERT_TRUE(runUntil([&] { return !window.model().device().choice().sinks.empty(); }));
@@ -1363,12 +1354,9 @@ TEST_F(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
     window.newDocument();
     ASSERT_NE(window.view().question(), nullptr);
     window.view().question()->answer("Save");
-    FileCard* card = nullptr;
-    ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
+    fileCard(window);
     EXPECT_EQ(window.model().mix().levelDb, -18.0) << "not before it is saved";
-    card->enter(folder.folder);
-    card->setName("kept");
-    card->accept();
+    saveAs("kept");
     ASSERT_TRUE(runUntil([&] { return folder("kept.json").existsAsFile() && !window.isChanged(); }));
     EXPECT_TRUE(runUntil([&] { return !window.model().undoManager().canUndo(); })) << "a new session";
     EXPECT_EQ(window.document(), juce::File{});
@@ -1378,8 +1366,7 @@ TEST_F(Window, WhoSavesAtAQuestionGoesOnOnceItIsSaved) {
     window.model().change("Level", [](Mix& mix) { mix.levelDb = -20.0; });
     window.newDocument(); // who gives up at the file stays
     window.view().question()->answer("Save");
-    ASSERT_TRUE(runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; }));
-    card->onCancel();
+    fileCard(window).onCancel();
     ASSERT_TRUE(runUntil([&] { return window.view().card() == nullptr; }));
     EXPECT_EQ(window.model().mix().levelDb, -20.0);
     EXPECT_TRUE(window.isChanged());
