@@ -4,7 +4,6 @@
 #include "Mixer/Widgets/Parts.h"
 #include "Pictures/ShapeOutline.h"
 #include "Scene/Drawing/BodyEdits.h"
-#include "Scene/SceneLimits.h"
 
 namespace physvib {
 
