@@ -138,10 +138,17 @@ TEST(WavSink, ReplacesALongerFile) {
 TEST(WavSink, KeepsTheComment) {
     const auto path = pathOf("comment.wav");
     ASSERT_EQ(writeBlocks(path, 4, 10, 10, "shake-the-box, seed 1"), "");
-    EXPECT_NE(bytesOf(path).find("ICMT"), std::string::npos);
-    EXPECT_NE(bytesOf(path).find("shake-the-box, seed 1"), std::string::npos);
     const auto bytes = bytesOf(path);
+    EXPECT_NE(bytes.find("ICMT"), std::string::npos);
+    EXPECT_NE(bytes.find("shake-the-box, seed 1"), std::string::npos);
     EXPECT_EQ(bytes.size(), chunkAt(bytes, "data") + 10 * 4 * sizeof(float)) << "behind it, whole";
+}
+
+/// 480 frames of 0.5 on a channel.
+void render(PlayedRecorder& recorder, std::int64_t frame, int rate = rateHz) {
+    const std::vector<float> block(480, 0.5f);
+    const float* const channels[] = {block.data()};
+    recorder.rendered({channels, 480, frame, rate});
 }
 
 TEST(PlayedRecorder, SaysInTheFileAtWhichSessionTimeItBegins) {
@@ -150,13 +157,11 @@ TEST(PlayedRecorder, SaysInTheFileAtWhichSessionTimeItBegins) {
     ASSERT_EQ(recorder.error(), "");
     recorder.tellBeginning(2400);
     EXPECT_FALSE(recorder.beginsSeconds());
-    const std::vector<float> block(480, 0.5f);
-    const float* const channels[] = {block.data()};
     for (int i = 0; i < 3; ++i) // the world has not begun, so time stands still
-        recorder.rendered({channels, 480, -480, rateHz});
+        render(recorder, -480);
     EXPECT_FALSE(recorder.beginsSeconds());
-    recorder.rendered({channels, 480, 960, rateHz});
-    recorder.rendered({channels, 480, 1440, rateHz});
+    render(recorder, 960);
+    render(recorder, 1440);
     ASSERT_EQ(recorder.finish(), "");
     EXPECT_EQ(recorder.beginsSeconds(), -0.03);
     const auto bytes = bytesOf(path);
@@ -182,10 +187,8 @@ TEST(PlayedRecorder, IsAWholeFileInItsPlaceWhileItGrows) {
     ASSERT_EQ(writeBlocks(path, 4, 10, 10), "");
     PlayedRecorder recorder{path, 1, rateHz};
     EXPECT_EQ(channelsOnceThereAre(10, path).size(), 4u) << "the old one, until there is something to hear";
-    const std::vector<float> block(480, 0.5f);
-    const float* const channels[] = {block.data()};
     for (const std::size_t frames : {480u, 960u, 1440u}) {
-        recorder.rendered({channels, 480, static_cast<std::int64_t>(frames) - 480, rateHz});
+        render(recorder, static_cast<std::int64_t>(frames) - 480);
         std::vector<std::vector<float>> there;
         for (int i = 0; i < 50 && there.size() != 1; ++i) there = channelsOnceThereAre(frames, path);
         ASSERT_EQ(there.size(), 1u);
@@ -198,12 +201,10 @@ TEST(PlayedRecorder, IsAWholeFileInItsPlaceWhileItGrows) {
 
 TEST(PlayedRecorder, EndsWhereAnotherRateComes) {
     PlayedRecorder recorder{pathOf("rates.wav"), 1, rateHz};
-    const std::vector<float> block(480, 0.5f);
-    const float* const channels[] = {block.data()};
-    recorder.rendered({channels, 480, 0, rateHz});
+    render(recorder, 0);
     EXPECT_TRUE(recorder.isWhole());
-    recorder.rendered({channels, 480, 480, 2 * rateHz});
-    recorder.rendered({channels, 480, 960, rateHz});
+    render(recorder, 480, 2 * rateHz);
+    render(recorder, 960);
     EXPECT_FALSE(recorder.isWhole());
     ASSERT_EQ(recorder.finish(), "");
     EXPECT_EQ(recorder.frames(), 480);
@@ -251,17 +252,15 @@ TEST(PlayedRecorder, AFullDiskIsToldAndLeavesWhatFitted) {
     const auto path = pathOf("fitted.wav");
     std::filesystem::remove(path);
     PlayedRecorder recorder{path, 1, rateHz};
-    const std::vector<float> block(480, 0.5f);
-    const float* const channels[] = {block.data()};
-    recorder.rendered({channels, 480, 0, rateHz});
+    render(recorder, 0);
     ASSERT_EQ(channelsOnceThereAre(480, path).size(), 1u);
     const auto fitted = bytesOf(path);
     const FileSizeLimit full(static_cast<rlim_t>(fitted.size() + 100));
-    recorder.rendered({channels, 480, 480, rateHz});
+    render(recorder, 480);
     for (int i = 0; i < 1000 && recorder.error().empty(); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds{10});
     expectOneLineWith(recorder.error(), path + ": cannot be written: File too large");
-    recorder.rendered({channels, 480, 960, rateHz});
+    render(recorder, 960);
     EXPECT_EQ(recorder.finish(), recorder.error());
     EXPECT_EQ(bytesOf(path), fitted);
 }

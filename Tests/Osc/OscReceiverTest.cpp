@@ -259,18 +259,6 @@ TEST(OscReceivers, ClipsAreReadWhereTheDoorHasAFolder) {
     ASSERT_EQ(open.struck().size(), 1U);
 }
 
-TEST(OscReceivers, NothingOfABadPacketIsDone) {
-    Open open;
-    open.play();
-    auto bytes =
-        oscBundle("/physvib/strike", {"strike", {{"frequency_hz", 200.0}, {"seconds", 0.1}}}, oscNow);
-    for (const char c : "\0\0\0\7broken"s) bytes.push_back(c);
-    open.take(bytes);
-    EXPECT_EQ(open.door.counts().bad, 1U);
-    EXPECT_EQ(open.door.counts().messages, 0U);
-    EXPECT_TRUE(open.struck().empty());
-}
-
 TEST(OscReceivers, SilenceIsTakenAndAnsweredAlwaysAndInOrder) {
     const auto silence = [](double isOn) { return oscPacket("/physvib/silence", {"", {{"on", isOn}}}); };
     Open open;

@@ -48,11 +48,6 @@ TEST(PhoneSensors, AxesMayComeOneByOne) {
     EXPECT_FALSE(pullOf(phone, "/accelerometer/Z", {1.0}).has_value());
 }
 
-TEST(PhoneSensors, APhoneMayBeHeldOnItsSide) {
-    PhoneSensors phone{std::numbers::pi / 2};
-    expectPull(pullOf(phone, "/accelerometer", {9.81, 0.0, 0.0}), 0.0, -9.81); // its right side is up
-}
-
 TEST(PhoneSensors, OthersAreNoSensors) {
     for (const char* address : {"/physvib/strike", "/gravity", "/a/b/gravity", "/gyrosc/quat", "", "/"})
         EXPECT_EQ(sensorFormat(address), nullptr) << address;

@@ -37,22 +37,21 @@ OscPort::~OscPort() {
     if (thread_.joinable()) thread_.join();
 }
 
-void OscPort::read() {
-    while (!stop_)
-        if (in_.wait(pollMilliseconds)) readAll();
-}
-
 // A packet that finds the queue full still silences. Its sender gets no reply and may repeat it.
-void OscPort::readAll() {
-    MuteRequests& silence = device_.silence();
+void OscPort::read() {
     while (!stop_) {
-        const auto bytes = in_.receive();
-        if (!bytes) break;
-        const std::uint64_t before = silence.asked(MuteRequester::osc), asked = silencesIn(*bytes);
-        if (asked > 0) silence.request(MuteRequester::osc, before + asked);
-        if (!packets_.push({{bytes->begin(), bytes->end()}, in_.sender(), before}, bytes->size())) ++lost_;
+        if (!in_.wait(pollMilliseconds)) continue;
+        MuteRequests& silence = device_.silence();
+        while (!stop_) {
+            const auto bytes = in_.receive();
+            if (!bytes) break;
+            const std::uint64_t before = silence.asked(MuteRequester::osc), asked = silencesIn(*bytes);
+            if (asked > 0) silence.request(MuteRequester::osc, before + asked);
+            if (!packets_.push({{bytes->begin(), bytes->end()}, in_.sender(), before}, bytes->size()))
+                ++lost_;
+        }
+        lost_ += in_.takeLost();
     }
-    lost_ += in_.takeLost();
 }
 
 void OscPort::run() {

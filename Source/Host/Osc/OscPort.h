@@ -149,7 +149,6 @@ private:
         std::uint64_t silences = 0; // requests before this packet
     };
     void read();
-    void readAll();
     void run();
     void receive();
     void reply(std::size_t packetBytes, const UdpSender& to);

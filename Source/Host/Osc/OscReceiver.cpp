@@ -47,10 +47,6 @@ Result<SilenceControl> silenceOf(const OscMessage& message) {
     return plain ? readPlainSilence(plain.value.values) : Failure{plain.error};
 }
 
-bool isMessage(const std::string& name) {
-    return std::ranges::find(messageTable, name, &MessageDescription::name) != messageTable.end();
-}
-
 } // namespace
 
 OscReceiver::OscReceiver(Session& session, MessageRouter& messages, OscHooks hooks, double turnRadians)
@@ -99,18 +95,18 @@ std::string OscReceiver::act(const OscMessage& message, const OscClock& clock,
         if (auto why = hooks_.closed(); !why.empty()) return why;
     // phone sensors have no address with our prefix: /physvib/gravity is an input
     const bool isOurs = message.address.starts_with(oscPrefix);
-    if (const auto* format = isOurs ? nullptr : sensorFormat(message.address)) return turn(*format, message);
+    if (const auto* format = isOurs ? nullptr : sensorFormat(message.address)) {
+        const auto gravity = sensors_.read(*format, message);
+        return gravity && gravity.value ? hooks_.act(Action{*gravity.value}, origin_) : gravity.error;
+    }
     if (!isOurs)
         return inQuotes(message.address) + ": expected an address that begins with " +
                std::string(oscPrefix) + ", or one of a sensor program";
     const auto plain = plainOf(std::string_view{message.address}.substr(oscPrefix.size()), message.values);
     if (!plain) return plain.error;
-    if (isMessage(plain.value.name)) return route(plain.value, message.tag, clock, answers);
-    return actPlain(plain.value);
-}
-
-std::string OscReceiver::actPlain(const PlainMessage& plain) {
-    auto input = readPlainInput(plain, session_.world().state().scene->materials, session_.channels());
+    if (std::ranges::find(messageTable, plain.value.name, &MessageDescription::name) != messageTable.end())
+        return route(plain.value, message.tag, clock, answers);
+    auto input = readPlainInput(plain.value, session_.world().state().scene->materials, session_.channels());
     return input ? hooks_.act(input.value, origin_) : input.error;
 }
 
@@ -123,11 +119,6 @@ std::string OscReceiver::silence(const Result<SilenceControl>& asked,
         answers.push_back(
             oscPacket(std::string(oscAnswerPrefix) + "silence", {"", {{"on", control.isOn ? 1.0 : 0.0}}}));
     return asked ? fault : asked.error + std::string(silencedAllTheSame);
-}
-
-std::string OscReceiver::turn(const SensorFormat& format, const OscMessage& message) {
-    const auto gravity = sensors_.read(format, message);
-    return gravity && gravity.value ? hooks_.act(Action{*gravity.value}, origin_) : gravity.error;
 }
 
 std::string OscReceiver::route(const PlainMessage& plain, OscTag tag, const OscClock& clock,

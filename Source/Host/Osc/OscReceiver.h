@@ -173,9 +173,7 @@ public:
 private:
     std::string act(const OscMessage& message, const OscClock& clock,
                     std::vector<std::vector<char>>& answers);
-    std::string actPlain(const PlainMessage& plain);
     std::string silence(const Result<SilenceControl>& asked, std::vector<std::vector<char>>& answers);
-    std::string turn(const SensorFormat& format, const OscMessage& message);
     std::string route(const PlainMessage& plain, OscTag tag, const OscClock& clock,
                       std::vector<std::vector<char>>& answers);
     void refuse(std::string_view address, std::string_view reason);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <juce_graphics/juce_graphics.h>
 #include <juce_gui_basics/juce_gui_basics.h>
+#include <utility>
 
 // The colours of Source/Pictures as JUCE types.
 namespace physvib::palette {
@@ -105,6 +106,12 @@ inline const juce::Identifier tintProperty{"physvib-tint"};
 inline const juce::Identifier faderProperty{"physvib-fader"};
 /// Icons whose tooltip is their name, and is there as soon as the pointer rests.
 inline const juce::Identifier iconProperty{"physvib-icon"};
+
+/// Changes what a component shows, and draws it anew if that differs. M.
+template <class T>
+void setShown(juce::Component& component, T& shown, const T& value) {
+    if (std::exchange(shown, value) != value) component.repaint();
+}
 
 /// What is read, not used, to a screen reader too. M.
 class ReadOut : public juce::Component {

@@ -93,18 +93,6 @@ void WorldView::showGainsOf(int enchanter) {
     repaint();
 }
 
-void WorldView::select(int enchanter) {
-    if (enchanter == selected_) return;
-    selected_ = enchanter;
-    repaint();
-}
-
-void WorldView::showSpot(std::optional<FieldShare> spot) {
-    if (spot == spot_) return;
-    spot_ = spot;
-    repaint();
-}
-
 void WorldView::update(WorldMoment moment) {
     if (!ahead_.empty() && moment.sessionNs < ahead_.back().timeNs) ahead_.clear(); // a new scene run
     const auto before = ahead_.empty() ? std::vector<BodyPose>{} : ahead_.front().poses;

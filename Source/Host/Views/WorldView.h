@@ -68,9 +68,10 @@ public:
     void setRoom(juce::BorderSize<int> pixels) { room_ = pixels, resized(), repaint(); }
     /// Width kept free around the field, for the actuators on its edge. M.
     void setMargin(int pixels) { margin_ = pixels; }
-    void select(int enchanter); ///< draws a ring around it; -1: none
+    /// Draws a ring around it; -1: none.
+    void select(int enchanter) { setShown(*this, selected_, enchanter); }
     /// Draws a cross at a place in the field; none: no cross. M.
-    void showSpot(std::optional<FieldShare> spot);
+    void showSpot(std::optional<FieldShare> spot) { setShown(*this, spot_, spot); }
 
     // Callbacks for mouse input; without a callback the action is disabled. M.
     /// In the field's axes; the point on the body in metres of the field.
@@ -201,14 +202,11 @@ private:
     void drawHits(juce::Graphics& g, const Map& at) const;
     void addHit(const CollisionEvent& event, double nowMs, bool isFelt);
     float ageOf(double shownAtMs) const; ///< 0: just shown, 1: faded
-    bool isMuted(int enchanter) const {
-        return static_cast<std::size_t>(enchanter) < muted_.size() &&
-               muted_[static_cast<std::size_t>(enchanter)];
+    static bool isSet(const std::vector<bool>& of, int enchanter) {
+        return static_cast<std::size_t>(enchanter) < of.size() && of[static_cast<std::size_t>(enchanter)];
     }
-    bool isWithoutOutput(int enchanter) const {
-        return static_cast<std::size_t>(enchanter) < without_.size() &&
-               without_[static_cast<std::size_t>(enchanter)];
-    }
+    bool isMuted(int enchanter) const { return isSet(muted_, enchanter); }
+    bool isWithoutOutput(int enchanter) const { return isSet(without_, enchanter); }
     void drawTraces(juce::Graphics& g, const Map& at) const;
     void drawRays(juce::Graphics& g, const Map& at) const;
     void drawHalos(juce::Graphics& g) const;

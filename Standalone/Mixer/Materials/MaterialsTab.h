@@ -11,8 +11,7 @@
 
 namespace physvib {
 
-/// Waveform and spectrum of a contact for display, from a recording or from a material's mode.
-/// An impact from its onset.
+/// An impact from its onset for display, of a recording or of a material's mode.
 struct HitCourse {
     double rateHz = 0.0;
     std::vector<float> samples; ///< normalised to a peak of 1
@@ -90,7 +89,6 @@ private:
     juce::ComboBox pattern_;
 };
 
-/// Slider ranges that emphasise the perceivable values of a parameter.
 /// Logarithmic range: the middle 90 % of the slider cover the perceivable values from `low` to `high`, and
 /// its ends the rest of the possible ones.
 inline juce::NormalisableRange<double> feltRange(double least, double low, double high, double most) {

@@ -56,23 +56,12 @@ AnalysisScreen::AnalysisScreen(MixerModel& model, const juce::String& title, Ana
 }
 
 AnalysisScreen::AnalysisScreen(MixerModel& model, const juce::String& title)
-    : model_{model}
+    : FullScreen{model, title}
     , title_{title} {
-    setTitle(title);
-    setOpaque(true);
-    setWantsKeyboardFocus(true);
-    setFocusContainerType(FocusContainerType::keyboardFocusContainer);
     kind_.setTitle("Kind of analysis");
     kind_.onChange = [this] { run(kind_.getText().toLowerCase().replaceCharacter(' ', '-').toStdString()); };
     choose_ = quietButton("Choose files", "Choose the files to be analysed", [this] { browse(); });
-    close_ = quietButton("Close", "Close the analysis");
-    close_->onClick = [this] {
-        // asynchronous, because it deletes this component
-        if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); });
-    };
-    silence_.setTitle("Silence");
-    silence_.getProperties().set(stopProperty, true);
-    silence_.onClick = [this] { model_.setSilent(!model_.isSilent()), refresh(); };
+    close_ = quietButton("Close", "Close the analysis", [this] { close(); });
     words_.setTitle("Figures");
     words_.setMultiLine(true);
     words_.setReadOnly(true);
@@ -83,11 +72,6 @@ AnalysisScreen::AnalysisScreen(MixerModel& model, const juce::String& title)
     addAll(*this, {close_.get(), &silence_, &words_});
     prepareControls(*this);
     refresh();
-}
-
-void AnalysisScreen::refresh() {
-    silence_.setButtonText(model_.isSilent() ? "SILENT: press to feel" : "SILENCE  Esc");
-    silence_.setToggleState(model_.isSilent(), juce::dontSendNotification);
 }
 
 bool AnalysisScreen::keyPressed(const juce::KeyPress& key) {

@@ -11,14 +11,11 @@
 
 namespace physvib {
 
-/// Fills its parent. Message thread.
-class AnalysisScreen final : public juce::Component {
+class AnalysisScreen final : public FullScreen {
 public:
     AnalysisScreen(MixerModel& model, const std::vector<juce::File>& files);
     /// Shows this report instead, under that title.
     AnalysisScreen(MixerModel& model, const juce::String& title, AnalysisReport report);
-
-    std::function<void()> onClose;
 
     /// Shows the first analysis that fits the trial files of one study, or any table that `physvib analyse`
     /// accepts.
@@ -26,14 +23,11 @@ public:
     const AnalysisReport& report() const noexcept { return report_; }
     const juce::Drawable* picture() const noexcept { return picture_.get(); }
 
-    void refresh(); ///< updates the silence button
+    void refresh() override { showSilence("SILENT: press to feel", "SILENCE  Esc"); }
 
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
-    void parentSizeChanged() override {
-        if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
-    }
     void parentHierarchyChanged() override { showWords(); }
 
 private:
@@ -42,7 +36,6 @@ private:
     void run(const std::string& name);
     void showWords();
 
-    MixerModel& model_;
     juce::String title_;
     std::vector<juce::File> files_;
     AnalysisReport report_;
@@ -50,7 +43,6 @@ private:
     juce::ComboBox kind_;
     juce::TextEditor words_;
     std::unique_ptr<juce::TextButton> choose_, close_;
-    juce::TextButton silence_; // the world continues behind this screen
     juce::Rectangle<int> titleArea_, pictureArea_;
 };
 

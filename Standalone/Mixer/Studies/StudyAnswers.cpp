@@ -72,12 +72,6 @@ void StudyAnswerPane::focusConfirm() {
     if (confirm_.isShowing() && confirm_.isEnabled()) confirm_.grabKeyboardFocus();
 }
 
-void StudyAnswerPane::setQuestion(const juce::String& question) {
-    if (question == question_) return;
-    question_ = question;
-    repaint();
-}
-
 void StudyAnswerPane::paint(juce::Graphics& g) {
     if (standsAlone_) {
         g.fillAll(shade(*this, Shade::ground));
@@ -118,7 +112,7 @@ public:
         setTitle("Stimuli");
         for (const std::string& label : labels_) {
             auto& button = buttons_.emplace_back(std::make_unique<BigButton>(say(label), utf8(label)));
-            button->onClick = [this, label] { choose(label); };
+            offer(*button, label);
             addAndMakeVisible(*button);
         }
     }
@@ -145,10 +139,6 @@ public:
     }
 
 private:
-    void showChosen(const std::string& response) override {
-        for (std::size_t i = 0; i < buttons_.size(); ++i)
-            buttons_[i]->setToggleState(labels_[i] == response, juce::dontSendNotification);
-    }
     std::vector<std::unique_ptr<BigButton>> buttons_;
     const std::vector<std::string> labels_;
 };
@@ -163,14 +153,14 @@ public:
             auto& button = buttons_.emplace_back(
                 std::make_unique<BigButton>(say.ordinal(i), "Answer: number " + juce::String{i + 1}));
             button->setWords(say.ordinal(i), say("key {n}", {{"n", juce::String{i + 1}}}));
-            button->onClick = [this, i] { choosePart(i); };
+            offer(*button, nth(parts_, i));
             addAndMakeVisible(*button);
         }
     }
     std::string keys() const override { return "1, 2: answer.  Enter: confirm."; }
     bool handleKey(const juce::KeyPress& key) override {
         const int i = static_cast<int>(key.getTextCharacter() - '1');
-        if (isEnabled() && i >= 0 && i < static_cast<int>(parts_.size())) return choosePart(i), true;
+        if (isEnabled() && i >= 0 && i < static_cast<int>(parts_.size())) return choose(nth(parts_, i)), true;
         return moveFocus(*this, key);
     }
     void resized() override {
@@ -181,11 +171,6 @@ public:
     }
 
 private:
-    void showChosen(const std::string& response) override {
-        for (std::size_t i = 0; i < buttons_.size(); ++i)
-            buttons_[i]->setToggleState(parts_[i] == response, juce::dontSendNotification);
-    }
-    void choosePart(int i) { choose(nth(parts_, i)); }
     const std::vector<std::string> parts_;
     std::vector<std::unique_ptr<BigButton>> buttons_;
 };
@@ -206,27 +191,27 @@ public:
         const std::size_t open = session.reference.empty() ? 0 : 1;
         for (std::size_t i = 0; i < session.scores().size(); ++i) {
             auto& scale = scales_.emplace_back(std::make_unique<Scale>());
-            const auto own = session.ratesSideBySide() ? partLetter(i) : utf8(session.scales[i]);
-            const auto title = own, name = session.ratesSideBySide() ? own : say(session.scales[i]);
-            places_.push_back(
-                session.ratesSideBySide()
-                    ? static_cast<std::size_t>(std::ranges::find(session.objects, trial.parts[open + i]) -
-                                               session.objects.begin())
-                    : i);
-            scale->name = name.substring(0, 1).toUpperCase() + name.substring(1);
+            const bool isObject = session.ratesSideBySide();
+            const auto capital = [](const juce::String& words) {
+                return words.substring(0, 1).toUpperCase() + words.substring(1);
+            };
+            places_.push_back(isObject ? static_cast<std::size_t>(
+                                             std::ranges::find(session.objects, trial.parts[open + i]) -
+                                             session.objects.begin())
+                                       : i);
+            scale->name = capital(isObject ? partLetter(i) : say(session.scales[i]));
             if (i < session.definitions.size()) scale->meaning = say(session.definitions[i]);
-            scale->slider.setTitle(title.substring(0, 1).toUpperCase() + title.substring(1));
-            scale->slider.setDescription(scale->meaning);
-            scale->slider.setSliderStyle(juce::Slider::LinearHorizontal);
-            scale->slider.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
-            scale->slider.setRange(points_ > 0 ? 1.0 : 0.0, points_ > 0 ? points_ : 100.0, 1.0);
-            scale->slider.setValue(points_ > 0 ? (1 + points_) / 2 : 50.0, juce::dontSendNotification);
-            scale->slider.setWantsKeyboardFocus(true);
-            scale->slider.getProperties().set(tintProperty,
-                                              static_cast<juce::int64>(palette::muted.getARGB()));
-            scale->slider.onValueChange = [this, s = scale.get()] { touched(*s); };
-            scale->slider.onDragEnd = [this, s = scale.get()] { touched(*s); };
-            addAndMakeVisible(scale->slider);
+            auto& slider = scale->slider;
+            slider.setTitle(capital(isObject ? partLetter(i) : utf8(session.scales[i])));
+            slider.setDescription(scale->meaning);
+            slider.setSliderStyle(juce::Slider::LinearHorizontal);
+            slider.setTextBoxStyle(juce::Slider::NoTextBox, true, 0, 0);
+            slider.setRange(points_ > 0 ? 1.0 : 0.0, points_ > 0 ? points_ : 100.0, 1.0);
+            slider.setValue(points_ > 0 ? (1 + points_) / 2 : 50.0, juce::dontSendNotification);
+            slider.setWantsKeyboardFocus(true);
+            slider.getProperties().set(tintProperty, static_cast<juce::int64>(palette::muted.getARGB()));
+            slider.onValueChange = slider.onDragEnd = [this, s = scale.get()] { touched(*s); };
+            addAndMakeVisible(slider);
         }
     }
     Answer answer() const override {
@@ -255,10 +240,9 @@ public:
             const auto ends = row.withTrimmedTop(30).removeFromTop(22);
             g.drawText(say_(anchors_[0]), ends, juce::Justification::centredLeft, true);
             g.drawText(say_(anchors_[1]), ends, juce::Justification::centredRight, true);
-            const auto valueText = showsNumbers_ && scale->isMoved
-                                       ? juce::String{juce::roundToInt(scale->slider.getValue())}
-                                   : scale->isMoved ? juce::String{}
-                                                    : say_("not set");
+            const auto valueText = !scale->isMoved ? say_("not set")
+                                   : showsNumbers_ ? juce::String{juce::roundToInt(scale->slider.getValue())}
+                                                   : juce::String{};
             g.drawText(valueText, ends, juce::Justification::centred, true);
         }
     }

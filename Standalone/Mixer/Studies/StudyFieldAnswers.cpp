@@ -9,6 +9,40 @@ namespace {
 
 constexpr float margin = 24.0f;
 
+void drawRing(juce::Graphics& g, const juce::Component& component, juce::Point<float> at,
+              const LayoutDescription& layout, int enchanter) {
+    const auto ring = juce::Rectangle<float>{26.0f, 26.0f}.withCentre(at);
+    g.setColour(shade(component, Shade::panel));
+    g.fillEllipse(ring);
+    g.setColour(enchanterColour(component, enchanter));
+    g.drawEllipse(ring, 2.0f);
+    g.setFont(text::font(text::small, juce::Font::bold));
+    g.drawText(utf8(nth(layout.enchanters, enchanter).label), ring, juce::Justification::centred, false);
+}
+
+/// The field with its actuators as labelled rings.
+void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field,
+               const LayoutDescription& layout) {
+    fillRound(g, component, Shade::well, field, 10.0f);
+    g.setColour(shade(component, Shade::line));
+    g.drawRoundedRectangle(field, 10.0f, 1.5f);
+    for (int j = 0; j < layout.geometry.count; ++j)
+        drawRing(g, component, pointOn(field, placeOf(layout.geometry, j)), layout, j);
+}
+
+/// An actuator of the field, moved outwards if a point lies on it.
+void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component,
+                         const juce::Rectangle<float>& field, const LayoutDescription& layout,
+                         int enchanter) {
+    constexpr float way = 46.0f;
+    const auto place = placeOf(layout.geometry, enchanter);
+    const auto outwards = [](double share) { return share < 0.34 ? -1.0f : share > 0.66 ? 1.0f : 0.0f; };
+    juce::Point<float> out{outwards(place.x), outwards(place.y)};
+    if (out.isOrigin()) out.y = -1.0f;
+    drawRing(g, component, pointOn(field, place) + out * (way / out.getDistanceFromOrigin()), layout,
+             enchanter);
+}
+
 /// A point of the grid at the place of its stimulus: yellow, red once it was felt, as thesis Fig. 4.1 has it.
 class CellButton final : public juce::Button {
 public:
@@ -38,7 +72,7 @@ public:
         setTitle("Grid");
         for (const GridCell& cell : grid_.cells()) {
             auto& button = cells_.emplace_back(std::make_unique<CellButton>(cell));
-            button->onClick = [this, cell] { choose(gridLabel(cell)); };
+            offer(*button, gridLabel(cell));
             addAndMakeVisible(*button);
         }
     }
@@ -71,10 +105,6 @@ private:
     juce::Rectangle<float> field() const {
         return fieldIn(getLocalBounds().toFloat().reduced(cellMargin), layout_.geometry);
     }
-    void showChosen(const std::string& response) override {
-        for (auto& cell : cells_)
-            cell->setToggleState(gridLabel(cell->cell) == response, juce::dontSendNotification);
-    }
     PhantomGrid grid_;
     const LayoutDescription layout_;
     std::vector<std::unique_ptr<CellButton>> cells_;
@@ -98,18 +128,15 @@ public:
     bool handleKey(const juce::KeyPress& key) override {
         if (!isEnabled()) return false;
         const double step = key.getModifiers().isShiftDown() ? 0.1 : 0.01;
-        if (key.isKeyCode(juce::KeyPress::leftKey)) return moveMark({mark_.x - step, mark_.y}), true;
-        if (key.isKeyCode(juce::KeyPress::rightKey)) return moveMark({mark_.x + step, mark_.y}), true;
-        if (key.isKeyCode(juce::KeyPress::upKey)) return moveMark({mark_.x, mark_.y - step}), true;
-        if (key.isKeyCode(juce::KeyPress::downKey)) return moveMark({mark_.x, mark_.y + step}), true;
+        if (const auto way = wayOf(key); !way.isOrigin())
+            return moveMark({mark_.x + way.x * step, mark_.y + way.y * step}), true;
         // if the mark is already here, Enter is passed on to confirm
         if (key.isKeyCode(juce::KeyPress::returnKey) && marked_ != mark_) return acceptMark(), true;
         return false;
     }
     bool keyPressed(const juce::KeyPress& key) override { return handleKey(key); }
-    void mouseMove(const juce::MouseEvent& e) override { // JUCE also reports a resting mouse when the
-                                                         // component below it changes; that must not move the
-                                                         // mark
+    // JUCE also reports a resting mouse when the component below it changes; that must not move the mark
+    void mouseMove(const juce::MouseEvent& e) override {
         if (std::exchange(seenAt_, e.position).value_or(e.position) != e.position) follow(e);
     }
     void mouseDrag(const juce::MouseEvent& e) override { follow(e); }
@@ -316,7 +343,7 @@ public:
 private:
     void addIcon(const PulsePattern& pattern) {
         auto& icon = icons_.emplace_back(std::make_unique<PatternIcon>(pattern, layout_));
-        icon->onClick = [this, at = icon.get()] { choose(patternLabel(at->pattern)); };
+        offer(*icon, patternLabel(pattern));
         addChildComponent(*icon);
     }
 
@@ -360,11 +387,6 @@ private:
                     row.removeFromLeft(width + space).withTrimmedRight(space).withTrimmedBottom(space));
             }
         }
-    }
-
-    void showChosen(const std::string& response) override {
-        for (auto& icon : icons_)
-            icon->setToggleState(patternLabel(icon->pattern) == response, juce::dontSendNotification);
     }
 
     const LayoutDescription layout_;

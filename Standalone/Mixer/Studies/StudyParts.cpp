@@ -1,12 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Draws the common parts of participants' screens, and moves the focus by arrow keys.
 #include "Mixer/Studies/StudyParts.h"
-#include "Io/Disk/ReadFile.h"
 #include "Io/Text/CsvText.h"
-#include "Io/Text/NumberText.h"
-#include "Lab/Files/ProtocolFile.h"
 
 namespace physvib {
+
+FullScreen::FullScreen(MixerModel& model, const juce::String& title)
+    : model_{model} {
+    setTitle(title);
+    setOpaque(true);
+    setWantsKeyboardFocus(true);
+    setFocusContainerType(FocusContainerType::keyboardFocusContainer);
+    silence_.setTitle("Silence");
+    silence_.getProperties().set(stopProperty, true);
+    silence_.onClick = [this] { model_.setSilent(!model_.isSilent()), refresh(); };
+}
+
+void FullScreen::showSilence(const juce::String& on, const juce::String& off) {
+    silence_.setButtonText(model_.isSilent() ? on : off);
+    silence_.setToggleState(model_.isSilent(), juce::dontSendNotification);
+}
+
+void FullScreen::close() const {
+    if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); });
+}
 
 BigButton::BigButton(const juce::String& words, const juce::String& name)
     : juce::Button{name}
@@ -25,17 +42,6 @@ void BigButton::setWords(const juce::String& words, const juce::String& remark) 
 void BigButton::setShare(double share) {
     if (std::abs(share - share_) < 1e-3) return;
     share_ = share;
-    repaint();
-}
-
-void BigButton::setMain(bool isMain) {
-    isMain_ = isMain;
-    repaint();
-}
-
-void BigButton::setMarked(bool isMarked) {
-    if (isMarked == isMarked_) return;
-    isMarked_ = isMarked;
     repaint();
 }
 
@@ -104,65 +110,14 @@ juce::Point<float> pointOn(const juce::Rectangle<float>& field, const FieldPlace
             field.getY() + field.getHeight() * static_cast<float>(place.y)};
 }
 
-namespace {
-
-void drawRing(juce::Graphics& g, const juce::Component& component, juce::Point<float> at,
-              const LayoutDescription& layout, int enchanter) {
-    const auto ring = juce::Rectangle<float>{26.0f, 26.0f}.withCentre(at);
-    g.setColour(shade(component, Shade::panel));
-    g.fillEllipse(ring);
-    g.setColour(enchanterColour(component, enchanter));
-    g.drawEllipse(ring, 2.0f);
-    g.setFont(text::font(text::small, juce::Font::bold));
-    g.drawText(utf8(nth(layout.enchanters, enchanter).label), ring, juce::Justification::centred, false);
-}
-
-constexpr std::size_t maxPictureBytes = 16'000'000;
-constexpr unsigned mostPixels = 4096; // maximum width and height
-
-/// Reads a side of a PNG: a big-endian number after its signature.
-unsigned sideAt(const std::string& png, std::size_t at) {
-    unsigned side = 0;
-    for (std::size_t i = at; i < at + 4; ++i) side = 256 * side + static_cast<unsigned char>(png[i]);
-    return side;
-}
-
-bool isSmallPng(const std::string& text) {
-    constexpr std::string_view begin{"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16};
-    if (text.size() < 24 || !text.starts_with(begin)) return false;
-    return std::ranges::all_of(std::initializer_list<unsigned>{sideAt(text, 16), sideAt(text, 20)},
-                               [](unsigned side) { return side > 0 && side <= mostPixels; });
-}
-
-} // namespace
-
-void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field,
-               const LayoutDescription& layout) {
-    fillRound(g, component, Shade::well, field, 10.0f);
-    g.setColour(shade(component, Shade::line));
-    g.drawRoundedRectangle(field, 10.0f, 1.5f);
-    for (int j = 0; j < layout.geometry.count; ++j)
-        drawRing(g, component, pointOn(field, placeOf(layout.geometry, j)), layout, j);
-}
-
-void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component,
-                         const juce::Rectangle<float>& field, const LayoutDescription& layout,
-                         int enchanter) {
-    constexpr float way = 46.0f;
-    const auto place = placeOf(layout.geometry, enchanter);
-    const auto outwards = [](double share) { return share < 0.34 ? -1.0f : share > 0.66 ? 1.0f : 0.0f; };
-    juce::Point<float> out{outwards(place.x), outwards(place.y)};
-    if (out.isOrigin()) out.y = -1.0f;
-    drawRing(g, component, pointOn(field, place) + out * (way / out.getDistanceFromOrigin()), layout,
-             enchanter);
+juce::Point<int> wayOf(const juce::KeyPress& key) {
+    const auto is = [&key](int code) { return key.isKeyCode(code) ? 1 : 0; };
+    return {is(juce::KeyPress::rightKey) - is(juce::KeyPress::leftKey),
+            is(juce::KeyPress::downKey) - is(juce::KeyPress::upKey)};
 }
 
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
-    juce::Point<int> way;
-    if (key.isKeyCode(juce::KeyPress::leftKey)) way = {-1, 0};
-    if (key.isKeyCode(juce::KeyPress::rightKey)) way = {1, 0};
-    if (key.isKeyCode(juce::KeyPress::upKey)) way = {0, -1};
-    if (key.isKeyCode(juce::KeyPress::downKey)) way = {0, 1};
+    const auto way = wayOf(key);
     if (way.isOrigin()) return false;
     juce::Component* from = nullptr;
     for (auto* child : parent.getChildren())
@@ -176,8 +131,8 @@ bool moveFocus(juce::Component& parent, const juce::KeyPress& key) {
     for (auto* child : parent.getChildren()) {
         if (child == from || !child->isVisible() || !child->isEnabled() || !child->getWantsKeyboardFocus())
             continue;
-        const auto step = from != nullptr ? child->getBounds().getCentre() - from->getBounds().getCentre()
-                                          : juce::Point<int>{way};
+        const auto step =
+            from != nullptr ? child->getBounds().getCentre() - from->getBounds().getCentre() : way;
         const int along = step.x * way.x + step.y * way.y,
                   aside = std::abs(step.x * way.y) + std::abs(step.y * way.x);
         if (along <= 0 || along < aside / 2) continue;
@@ -250,44 +205,6 @@ juce::String StudyWords::ordinal(int part) const {
                                       "The fourth", "The fifth",  "The sixth"};
     const auto i = static_cast<std::size_t>(part);
     return i < names.size() ? (*this)(names[i]) : (*this)("Number {n}", {{"n", juce::String{part + 1}}});
-}
-
-juce::String minutesText(double seconds) {
-    const int whole = static_cast<int>(std::ceil(seconds));
-    return juce::String{whole / 60} + ":" + juce::String{whole % 60}.paddedLeft('0', 2);
-}
-
-// Loads pictures for participants. Picture files are untrusted, so their size is checked before decoding.
-
-Result<std::vector<MaterialPicture>> materialPictures(const Protocol& protocol,
-                                                      const std::string& participant) {
-    std::vector<MaterialPicture> pictures;
-    for (std::size_t i = 0; i < protocol.pictures.size(); ++i) {
-        const std::string at = "pictures[" + std::to_string(i) + "].file: ",
-                          path = picturePath(protocol.pictures[i], participant);
-        if (auto fault = linkFault(protocol.folder, path); !fault.empty()) return Failure{at + fault};
-        const auto text = readFile(besideProtocol(protocol.folder, path), maxPictureBytes);
-        if (!text) return Failure{at + text.error};
-        auto image = isSmallPng(text.value)
-                         ? juce::ImageFileFormat::loadFrom(text.value.data(), text.value.size())
-                         : juce::Image{};
-        if (image.isNull())
-            return Failure{at + path + ": expected a PNG picture of at most " + std::to_string(mostPixels) +
-                           " x " + std::to_string(mostPixels) + " pixels"};
-        pictures.push_back({protocol.pictures[i].material, std::move(image)});
-    }
-    return pictures;
-}
-
-std::string displayScaleFault(const Protocol& protocol, double displayWidthMetres) {
-    if (displayWidthMetres > 0.0) return {};
-    for (const ConditionPlan& condition : protocol.conditions)
-        if (const auto* const world = std::get_if<WorldSet>(&condition.stimuli);
-            world != nullptr && world->displayScale > 0.0)
-            return "condition " + printable(condition.name) +
-                   ": display_scale: expected the width of the display to be set in the mixer's menu, as 1:" +
-                   numberText(world->displayScale) + " is measured on it";
-    return {};
 }
 
 } // namespace physvib

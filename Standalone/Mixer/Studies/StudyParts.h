@@ -2,7 +2,6 @@
 // Parts of participants' screens: large buttons, a field with its actuators, arrow keys, texts; and
 // components with which participants answer, one for each kind of task.
 #pragma once
-#include "Host/Views/WorldPictures.h"
 #include "Lab/Files/Words.h"
 #include "Lab/Study/Experiment.h"
 #include "Lab/Study/Identification.h"
@@ -15,15 +14,35 @@ namespace physvib {
 /// Left and right margin of the screens that fill the window, in pixels.
 constexpr int pageInset = 40;
 
+/// Covers its parent, with a button that silences: what is behind it goes on. Message thread.
+class FullScreen : public juce::Component {
+public:
+    std::function<void()> onClose; ///< it is done or is left
+    void parentSizeChanged() override {
+        if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
+    }
+
+protected:
+    FullScreen(MixerModel& model, const juce::String& title);
+    virtual void refresh() = 0;
+    void showSilence(const juce::String& on, const juce::String& off); ///< on the button
+    void close() const; ///< later, because it deletes this component
+
+    MixerModel& model_;
+    juce::TextButton silence_;
+};
+
 /// A large button with text, a smaller remark below, and a bar at its lower edge.
 class BigButton final : public juce::Button {
 public:
     /// `name` is for screen readers.
     BigButton(const juce::String& words, const juce::String& name);
     void setWords(const juce::String& words, const juce::String& remark = {});
-    void setShare(double share);   ///< of the bar, 0 to 1; negative: no bar
-    void setMain(bool isMain);     ///< the button that continues
-    void setMarked(bool isMarked); ///< shows a dot
+    void setShare(double share); ///< of the bar, 0 to 1; negative: no bar
+    /// The button that continues.
+    void setMain(bool isMain) { setShown(*this, isMain_, isMain); }
+    /// Shows a dot.
+    void setMarked(bool isMarked) { setShown(*this, isMarked_, isMarked); }
     void paintButton(juce::Graphics& g, bool isOver, bool isDown) override;
 
 private:
@@ -40,18 +59,11 @@ juce::Rectangle<float> fieldIn(juce::Rectangle<float> area, const EnchanterLayou
 /// Place of an actuator on the field: x to the right, y downwards, 0 to 1.
 FieldPlace placeOf(const EnchanterLayout& layout, int enchanter);
 juce::Point<float> pointOn(const juce::Rectangle<float>& field, const FieldPlace& place);
-/// Draws the field with its actuators as labelled rings.
-void drawField(juce::Graphics& g, const juce::Component& component, const juce::Rectangle<float>& field,
-               const LayoutDescription& layout);
-
-/// Draws an actuator of the field with its label, which is moved outwards if a point lies on it.
-void drawEnchanterBeside(juce::Graphics& g, const juce::Component& component,
-                         const juce::Rectangle<float>& field, const LayoutDescription& layout, int enchanter);
-
+/// Of an arrow key, to the right and down; (0, 0): it is none.
+juce::Point<int> wayOf(const juce::KeyPress& key);
 /// Moves the focus to the nearest child of `parent` in the direction of an arrow key; false for other keys.
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key);
 
-/// Texts for participants, translated and with values inserted.
 /// The texts of the screens and of a protocol in the participant's language. Message thread.
 class StudyWords {
 public:
@@ -76,18 +88,6 @@ private:
     Words words_;
     mutable std::set<std::string> missed_;
 };
-
-/// "1:05". Any thread.
-juce::String minutesText(double seconds);
-
-/// Appearance of a world for a participant: pictures of materials, and display scale.
-/// That participant's pictures, or an error line. Message thread.
-Result<std::vector<MaterialPicture>> materialPictures(const Protocol& protocol,
-                                                      const std::string& participant);
-
-/// Empty, or an error if the protocol has a display scale but the display width (metres) is not set (0). Any
-/// thread (allocates).
-std::string displayScaleFault(const Protocol& protocol, double displayWidthMetres);
 
 class StudyAnswer : public juce::Component, private juce::FocusChangeListener {
 public:
@@ -139,16 +139,22 @@ public:
     bool isComplete() const override { return !response_.empty(); }
 
 protected:
-    void choose(std::string response) {
-        response_ = std::move(response);
-        showChosen(response_);
+    /// A click on it chooses that response.
+    void offer(juce::Button& button, const std::string& response) {
+        offered_.emplace_back(&button, response);
+        button.onClick = [this, response] { choose(response); };
+    }
+    void choose(const std::string& response) {
+        response_ = response;
+        for (const auto& [button, of] : offered_)
+            button->setToggleState(of == response, juce::dontSendNotification);
         onChange();
         onAnswer();
     }
-    virtual void showChosen(const std::string& response) = 0;
 
 private:
     std::string response_;
+    std::vector<std::pair<juce::Button*, std::string>> offered_;
 };
 
 /// Creates the answer component of the current trial. All arguments outlive it. Message thread.
@@ -180,9 +186,10 @@ public:
     StudyAnswer* operator->() const noexcept { return answer_.get(); }
     explicit operator bool() const noexcept { return answer_ != nullptr; }
     void setConfirm(bool isSeen, bool isEnabled, const juce::String& words);
-    bool confirm();                                 ///< as a click on the button; false if it is disabled
-    void focusConfirm();                            ///< then Enter confirms
-    void setQuestion(const juce::String& question); ///< shown where no other component shows it
+    bool confirm();      ///< as a click on the button; false if it is disabled
+    void focusConfirm(); ///< then Enter confirms
+    /// Shown where no other component shows it.
+    void setQuestion(const juce::String& question) { setShown(*this, question_, question); }
     void setStandsAlone(bool standsAlone) { standsAlone_ = standsAlone; }
     bool standsAlone() const noexcept { return standsAlone_; }
 

@@ -62,11 +62,7 @@ StudySound::~StudySound() {
 }
 
 void StudySound::post(Kind kind, int channel, float value, const PhantomPanner* panner) {
-    RenderControl control;
-    control.kind = kind;
-    control.channel = channel;
-    control.value = value;
-    control.panner = panner;
+    const RenderControl control{.kind = kind, .channel = channel, .value = value, .panner = panner};
     if (!model_.session().submit({control})) model_.report(noControls);
 }
 
@@ -83,17 +79,16 @@ Result<FeltStimulus> StudySound::make(MixerModel& model, const TrialJob& job, co
 }
 
 std::string tooFew(const std::string& layout, int wanted, int there) {
+    if (wanted <= there) return {};
     return layout + " needs " + std::to_string(wanted) + (wanted == 1 ? " actuator" : " actuators") +
            ", the mixer has " + std::to_string(there) + ": choose a preset under Actuators";
 }
 
 std::string StudySound::refusal(const MixerModel& model, const FeltStimulus& stimulus) {
-    const int wanted = stimulus.layout.geometry.count, there = model.mix().count();
     if (const auto mute = model.device().withoutClips(); !stimulus.recordings.empty() && mute.isNotEmpty())
         return "--method SV: expected a mixer without the " + mute.toStdString() +
                ", which plays no recordings";
-    if (wanted <= there) return {};
-    return tooFew(stimulus.layout.name, wanted, there);
+    return tooFew(stimulus.layout.name, stimulus.layout.geometry.count, model.mix().count());
 }
 
 std::string StudySound::play(const FeltStimulus& stimulus) {
@@ -189,8 +184,6 @@ double StudySound::feltSeconds() const {
     return course_ == Course::plays ? std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_) : heldSeconds_;
 }
 
-double StudySound::startsInSeconds() const { return 1e-3 * (beganAtMs_ - nowMs()); }
-
 void StudySound::stop() {
     course_ = Course::none;
     isMuted_ = true;
@@ -249,12 +242,10 @@ void StudyMarkers::push(const std::string& words, double secondsFromNow) {
 }
 
 std::string StudyWorld::refusal(const MixerModel& model, const FeltWorld& world) {
-    const int wanted = world.layout.geometry.count, there = model.mix().count();
     if (const auto beside = model.session().sinks().states(); !beside.empty())
         return "a world: expected a mixer without the " + beside.front().name +
                ", which follows one session only";
-    if (wanted <= there) return {};
-    return tooFew(world.layout.name, wanted, there);
+    return tooFew(world.layout.name, world.layout.geometry.count, model.mix().count());
 }
 
 std::string StudyWorld::begin(FeltWorld world, bool hasHands, const std::filesystem::path& file) {
@@ -337,11 +328,10 @@ void StudyWorld::sendStrips() {
 
 void StudyWorld::end() {
     if (!isMoving()) return;
-    RenderControl stop;
-    stop.kind = RenderControl::Kind::stopAll;
     session_->world().setSlowness(0);
     // queue full: the world continues, and end() is called again by the next look()
-    if (const auto stopped = session_->submit({stop})) stoppedNs_ = stopped.value;
+    if (const auto stopped = session_->submit({RenderControl{.kind = Kind::stopAll}}))
+        stoppedNs_ = stopped.value;
 }
 
 std::string StudyWorld::act(const Action& action) {

@@ -33,6 +33,12 @@ std::string jobFault(MixerModel& model, const Protocol& protocol, const Conditio
     return world ? StudyWorld::refusal(model, world.value) : world.error;
 }
 
+/// "1:05".
+juce::String minutesText(double seconds) {
+    const int whole = static_cast<int>(std::ceil(seconds));
+    return juce::String{whole / 60} + ":" + juce::String{whole % 60}.paddedLeft('0', 2);
+}
+
 constexpr int maxUnlike = 3; // plays of a part at another level than planned; then its row is marked
 
 constexpr int studyBarHeight = 56, partWidth = 300, partHeight = 84, choiceHeight = 216;
@@ -89,7 +95,7 @@ std::string outputsFault(const Protocol& protocol, const MixerModel& model) {
 
 StudyScreen::StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> study, Words words,
                          bool answersElsewhere, std::vector<MaterialPicture> pictures)
-    : model_{model}
+    : FullScreen{model, "Study"}
     , study_{std::move(study)}
     , say_{std::move(words)}
     , pictures_{std::move(pictures)}
@@ -99,18 +105,10 @@ StudyScreen::StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> stu
     , answers_{say_}
     , markers_{study_->protocol().name}
     , troubleBefore_{model.trouble()} {
-    setTitle("Study");
-    setOpaque(true);
-    setWantsKeyboardFocus(true);
-    setFocusContainerType(FocusContainerType::keyboardFocusContainer);
     next_.setMain(true);
     next_.onClick = [this] { goOn(); };
     pause_.onClick = [this] { pause(); };
-    silence_.setTitle("Silence");
-    silence_.getProperties().set(stopProperty, true);
-    silence_.onClick = [this] { model_.setSilent(!model_.isSilent()), refresh(); };
-    leave_ = quietButton(say_("Leave"), "Leave the study; what was answered is kept");
-    leave_->onClick = [this] { leave(); };
+    leave_ = quietButton(say_("Leave"), "Leave the study; what was answered is kept", [this] { leave(); });
     comment_.setTitle("Comment");
     comment_.setMultiLine(true);
     comment_.setReturnKeyStartsNewLine(true);
@@ -181,7 +179,13 @@ void StudyScreen::showTrial() {
     answer->onChange = [this] { refresh(); };
     if (isExploring()) answer->mark(experiment().explored());
     answers_.show(std::move(answer));
-    if (worldSet() != nullptr) pane_.setWorldScale(worldSet()->displayScale), previewWorld();
+    if (const WorldSet* const set = worldSet()) { // of the first button, paused until it is played
+        pane_.setWorldScale(set->displayScale);
+        const auto jobs = jobsOf(study_->protocol(), {experiment().trial(), answers_->answer()});
+        const auto world = feltWorld(std::get<WrittenCall>(jobs.front()), study_->protocol().folder);
+        if (world)
+            pane_.preview(set->hasHands ? sceneForHands(world.value.setup.scene) : world.value.setup.scene);
+    }
     answers_.setVisible(true);
     next_.setVisible(false);
     pane_.setVisible(worldSet() != nullptr);
@@ -194,13 +198,6 @@ void StudyScreen::showTrial() {
     refresh();
     repaint();
     if (isShowing()) grabKeyboardFocus();
-}
-
-/// Shows the world of the first button, paused until it is played.
-void StudyScreen::previewWorld() {
-    const auto jobs = jobsOf(study_->protocol(), {experiment().trial(), answers_->answer()});
-    const auto world = feltWorld(std::get<WrittenCall>(jobs.front()), study_->protocol().folder);
-    if (world) pane_.preview(hasHands() ? sceneForHands(world.value.setup.scene) : world.value.setup.scene);
 }
 
 void StudyScreen::showParts() {
@@ -235,8 +232,7 @@ void StudyScreen::closeRequested() {
 void StudyScreen::leave() {
     if (isFeeling() && !hasHands()) return;
     if (!experiment().isDone()) note(studyEvents::leave);
-    // asynchronous, because it deletes this component
-    if (onClose) juce::MessageManager::callAsync([close = onClose] { close(); });
+    close();
 }
 
 void StudyScreen::goOn() {
@@ -346,7 +342,9 @@ std::string StudyScreen::begin(std::size_t part) {
 
 /// Decides by the receipts whether the play that is over counts.
 void StudyScreen::settle(Course course) {
-    noteFelt();
+    model_.exposure().update();
+    // stored now: a device that restarts later knows it no more
+    felt_[part_] = worldSet() != nullptr ? pane_.world().felt() : sound_.felt();
     int& unlike = unlike_[part_];
     unlike = course == Course::left ? 0 : course == Course::unlike ? unlike + 1 : unlike;
     if (course == Course::left || (course == Course::unlike && unlike >= maxUnlike)) return;
@@ -357,13 +355,6 @@ void StudyScreen::settle(Course course) {
     const bool isSequence = experiment().session().intervalSeconds > 0.0 && !hasHands();
     for (std::size_t part = isSequence ? 0 : part_; part <= part_; ++part) progress_->lost(part);
     counted_ = feltSeconds();
-}
-
-void StudyScreen::playWanted() {
-    if (!wanted_ || isFeeling()) return;
-    const auto part = *wanted_;
-    wanted_.reset();
-    play(part);
 }
 
 /// The parts after the first, each the session's interval after the one before.
@@ -420,12 +411,6 @@ void StudyScreen::markFelt() {
         fromNow);
 }
 
-/// Stores the felt level of the part that is over: a device that restarts later knows it no more.
-void StudyScreen::noteFelt() {
-    model_.exposure().update();
-    felt_[part_] = worldSet() != nullptr ? pane_.world().felt() : sound_.felt();
-}
-
 /// The participant's A(8) from this study's trials of today.
 double StudyScreen::exposure() const {
     return dailyExposure(std::max(0.0, squaresBefore_ + model_.exposure().squareGSeconds()));
@@ -477,7 +462,7 @@ void StudyScreen::updateTrial() {
     markFelt();
     if (wasFeeling && !isFeeling()) settle(course()), endedMs_ = nowMs(), resized();
     if (!pane_.world().fault().empty()) return fail(pane_.world().fault());
-    playWanted();
+    if (wanted_ && !isFeeling()) play(*std::exchange(wanted_, {}));
     playSequence();
     if (exploring_ && !isFeeling() && progress_->plays() > 0) return submit(*exploring_);
     if (Answer late; isTimeOver()) return late.ranOut = true, submit(late);
@@ -502,9 +487,7 @@ void StudyScreen::updateTrial() {
 void StudyScreen::refresh() {
     const bool hasFocus = hasKeyboardFocus(true) || (elsewhere_ && elsewhere_->hasKeyboardFocus(true));
     if (isShowing() && !hasFocus) grabKeyboardFocus(); // an answer may then take it
-    const bool isSilent = model_.isSilent();
-    silence_.setButtonText(isSilent ? say_("SILENT: press to feel") : say_("SILENCE  Esc"));
-    silence_.setToggleState(isSilent, juce::dontSendNotification);
+    showSilence(say_("SILENT: press to feel"), say_("SILENCE  Esc"));
     leave_->setEnabled(!isFeeling() || hasHands());
     if (page_ == Page::trial) updateTrial();
     if (page_ == Page::pause) {

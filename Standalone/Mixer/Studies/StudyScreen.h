@@ -14,7 +14,7 @@
 
 namespace physvib {
 
-/// The mixer has fewer actuators than a layout. Any thread.
+/// Empty, or that the mixer has fewer actuators than a layout wants. Any thread.
 std::string tooFew(const std::string& layout, int wanted, int there);
 
 /// How what was played last fared, by the receipts of the output.
@@ -48,8 +48,9 @@ public:
     bool isPlaying() const noexcept { return course_ == Course::plays; }
     /// Of the strongest actuator, of the last stimulus that is over.
     const FeltLevel& felt() const noexcept { return felt_; }
-    double feltSeconds() const;     ///< of the last stimulus, so far
-    double startsInSeconds() const; ///< time until the last stimulus is felt; negative afterwards
+    double feltSeconds() const; ///< of the last stimulus, so far
+    /// Time until the last stimulus is felt; negative afterwards.
+    double startsInSeconds() const { return 1e-3 * (beganAtMs_ - nowMs()); }
     /// Fades out sounding modes and mutes pending events until the next stimulus or the mixer's return.
     void stop();
 
@@ -196,15 +197,12 @@ private:
     double worldScale_ = 0.0;
 };
 
-/// Fills its parent. Keys: Space plays, Esc silences; the answer component has its own.
-class StudyScreen final : public juce::Component {
+/// Keys: Space plays, Esc silences; the answer component has its own.
+class StudyScreen final : public FullScreen {
 public:
     /// With `answersElsewhere`, answers are given in a separate window, on another display if there is one.
     StudyScreen(MixerModel& model, std::unique_ptr<StudyInProgress> study, Words words = {},
                 bool answersElsewhere = false, std::vector<MaterialPicture> pictures = {});
-
-    /// Called when the participant has finished or leaves; all answers are in the file.
-    std::function<void()> onClose;
 
     const StudyInProgress& study() const noexcept { return *study_; }
     const StudyWords& words() const noexcept { return say_; }
@@ -219,35 +217,29 @@ public:
     void closeRequested();
 
     /// Updates breaks, playback and the answer. To be called about 30 times a second.
-    void refresh();
+    void refresh() override;
 
     bool keyPressed(const juce::KeyPress& key) override;
     void paint(juce::Graphics& g) override;
     void resized() override;
-    void parentSizeChanged() override {
-        if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
-    }
 
 private:
     void showNext();
     void showPage(Page page);
     void showTrial();
     void showParts();
-    void previewWorld();
     void fail(const std::string& reason);
     void note(std::string_view event) { model_.reportFault(study_->note(event)); } ///< into the file of times
     void goOn();
     void leave();
     void play(std::size_t part);
     std::string begin(std::size_t part);
-    void playWanted();
     void playSequence();
     void pause();
     void asked();
     void confirm();
     void submit(Answer answer);
     void submitComment();
-    void noteFelt();
     void settle(Course course);
     void markFelt();
     std::string markerWords(const char* what) const;
@@ -281,7 +273,6 @@ private:
     juce::String headline() const, body() const, wrong() const, progressWords() const, feedback() const;
     const Experiment& experiment() const noexcept { return study_->experiment(); }
 
-    MixerModel& model_;
     std::unique_ptr<StudyInProgress> study_;
     const StudyWords say_;
     const std::vector<MaterialPicture> pictures_;
@@ -317,7 +308,6 @@ private:
 
     BigButton next_{"Next", "Next"}, pause_{"Pause", "Pause"};
     juce::TextEditor comment_;
-    juce::TextButton silence_;
     std::unique_ptr<juce::TextButton> leave_;
     juce::String shown_;
     juce::Rectangle<int> headArea_, questionArea_, bodyArea_, keysArea_;

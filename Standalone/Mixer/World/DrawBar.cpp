@@ -264,19 +264,13 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page
         constexpr double still = 0.01; // it stays a belt
         b.velocityMetresPerSecond.x = speed == 0.0 ? still : speed;
     });
-    new_.onClick = [this] {
-        askMaterial(*this, model_, pane_.material(), true,
-                    [this](int material) { pane_.giveMaterial(material), show(); });
-    };
+    new_.onClick = [this] { askMaterial(*this, model_, pane_.material(), true, give_); };
     material_ = quietButton({}, "Material of what is chosen");
     material_->setTooltip("The material: name, colour, copy, figures, recording");
     material_->onClick = [this] {
         const auto* body =
             pane_.chosen().empty() ? nullptr : model_.world().drawing().find(pane_.chosen()[0]);
-        if (body == nullptr) return;
-        editMaterial(
-            *material_, true, model_, body->fixtures[0].material,
-            [this](int material) { pane_.giveMaterial(material), show(); }, page_);
+        if (body != nullptr) editMaterial(*material_, true, model_, body->fixtures[0].material, give_, page_);
     };
     addAll(*this, {&new_, material_.get(), &name_, &moves_, &source_, &densityName_, &density_, &bounceName_,
                    &bounce_, &speedName_, &speed_, &torqueName_, &torque_, &springName_, &spring_, &beltName_,
@@ -351,10 +345,9 @@ void BodyPanel::show() {
                 std::make_unique<MaterialSwatch>(nth(shown_, i), palette::material(shown_, i)));
             describe(swatch, "Made of " + swatch.getName(),
                      swatch.getName() + ": what is chosen is made of it");
-            swatch.onClick = [this, i] { pane_.giveMaterial(i), show(); };
+            swatch.onClick = [this, i] { give_(i); };
             swatch.onEdit = [this, i](MaterialSwatch& from, bool isMenu) {
-                editMaterial(
-                    from, isMenu, model_, i, [this](int made) { pane_.giveMaterial(made), show(); }, page_);
+                editMaterial(from, isMenu, model_, i, give_, page_);
             };
             addAndMakeVisible(swatch);
             prepareControls(swatch);

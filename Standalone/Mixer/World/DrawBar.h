@@ -89,6 +89,8 @@ private:
     std::vector<std::unique_ptr<MaterialSwatch>> materials_;
     std::string drivenJoint_, springJoint_; // of the single selected body; empty: none
     const MaterialPage& page_;
+    const std::function<void(int)> give_{
+        [this](int material) { pane_.giveMaterial(material), show(); }}; ///< to what is chosen
     SignButton new_{Sign::plus, "New material for what is chosen"};
     std::unique_ptr<juce::TextButton> material_;
     Caption name_{{}, Shade::text};

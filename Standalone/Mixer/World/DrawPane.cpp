@@ -4,7 +4,6 @@
 #include "Mixer/Widgets/Parts.h"
 #include "Pictures/ShapeOutline.h"
 #include "Scene/Drawing/BodyEdits.h"
-#include "Scene/SceneLimits.h"
 
 namespace physvib {
 
@@ -306,7 +305,9 @@ void DrawPane::addAt(DrawTool tool, Vector place) {
     use(tool);
     to_ = place;
     stroke_ = {place};
-    addStroke();
+    constexpr double length = 0.2; // of a spring, which hangs from a place above
+    if (tool == DrawTool::spring) to_.y += length * model_.world().scene().fieldHeightMetres;
+    isJoint(tool) ? join() : addStroke();
     use(before);
 }
 
@@ -350,20 +351,6 @@ std::string DrawPane::fieldBody(std::vector<Action>& actions, const Vector& plac
     disc.fixtures[0].material = material_;
     actions.push_back(SpawnAction{disc, {}});
     return disc.name;
-}
-
-void DrawPane::joinAt(DrawTool tool, Vector place) {
-    const DrawTool before = tool_;
-    use(tool);
-    to_ = place;
-    if (tool == DrawTool::spring) { // hangs from a place above
-        constexpr double length = 0.2;
-        stroke_ = {place};
-        to_.y += length * model_.world().scene().fieldHeightMetres;
-    }
-    join();
-    stroke_.clear();
-    use(before);
 }
 
 void DrawPane::join() {

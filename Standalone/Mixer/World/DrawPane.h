@@ -44,8 +44,8 @@ public:
     void spawnDueBodies() { rain_.spawnDueBodies(); } ///< of a rain; to be called often
 
     // Menu commands, at places in metres of the field.
-    void addAt(DrawTool tool, Vector place); ///< a body of the usual size
-    void joinAt(DrawTool tool, Vector place);
+    void addAt(DrawTool tool, Vector place); ///< a body of the usual size, or a joint
+    void joinAt(DrawTool tool, Vector place) { addAt(tool, place); }
     void copy(const std::vector<std::string>& names) { copied_ = copied(drawing(), names); }
     bool hasCopy() const noexcept { return !copied_.bodies.empty(); }
     void pasteAt(Vector place);

@@ -29,10 +29,18 @@ WorldPanel::WorldPanel(MixerModel& model)
     setTitle("World");
     setWantsKeyboardFocus(true);
     view_.onPull = [this](const std::string& body, Vector screenMetres, Vector point) {
-        pull(body, screenMetres, point);
+        const double push = model_.mix().dragNewtonSecondsPerScreenMetre;
+        model_.reportFault(
+            model_.world().act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point}));
     };
-    view_.onHold = [this](const std::string& body, Vector point, Vector to) { hold(body, point, to); };
-    view_.onLetGo = [this](const std::string& body) { letGo(body); };
+    view_.onHold = [this](const std::string& body, Vector point, Vector to) {
+        hand_ = GripAction{body, to, point, handSeconds};
+        moveHand();
+    };
+    view_.onLetGo = [this](const std::string& body) {
+        hand_.reset();
+        model_.reportFault(model_.world().act(GripAction{body, {}, {}}));
+    };
     view_.pullText = [this](double screenMetres) {
         return "drag " + number(1e-3 * model_.mix().dragNewtonSecondsPerScreenMetre * screenMetres, 2) + " " +
                kiloNewtonSeconds;
@@ -290,22 +298,6 @@ void WorldPanel::lookAfterPlayer() {
     if (at < -1e3f) return;
     if (pointed_) play(player_->moveTowards(*pointed_, metresAt(at)));
     for (const Action& action : player_->keepInside(metresAt(at))) model_.world().act(action);
-}
-
-void WorldPanel::pull(const std::string& body, Vector screenMetres, Vector point) {
-    const double push = model_.mix().dragNewtonSecondsPerScreenMetre;
-    model_.reportFault(
-        model_.world().act(ImpulseAction{body, {push * screenMetres.x, push * screenMetres.y}, point}));
-}
-
-void WorldPanel::hold(const std::string& body, Vector point, Vector to) {
-    hand_ = GripAction{body, to, point, handSeconds};
-    moveHand();
-}
-
-void WorldPanel::letGo(const std::string& body) {
-    hand_.reset();
-    model_.reportFault(model_.world().act(GripAction{body, {}, {}}));
 }
 
 void WorldPanel::moveHand() {

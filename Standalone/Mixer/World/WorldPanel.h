@@ -78,9 +78,6 @@ public:
     void resized() override;
 
 private:
-    void pull(const std::string& body, Vector screenMetres, Vector point);
-    void hold(const std::string& body, Vector point, Vector to);
-    void letGo(const std::string& body);
     void moveHand();
     void addActuatorItems(juce::PopupMenu& menu, int enchanter);
     void addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place);
