@@ -7,15 +7,7 @@
 #include "Session/WallsScene.h"
 #include "VirtualBoard.h"
 #include "VirtualBoard/PseudoTerminal.h"
-#include "Wire/FrameDecoder.h"
-#include <array>
-#include <atomic>
-#include <chrono>
 #include <gtest/gtest.h>
-#include <mutex>
-#include <optional>
-#include <thread>
-#include <vector>
 
 namespace physvib {
 
@@ -36,10 +28,7 @@ public:
         return first_ + static_cast<double>(ns - startNs_) * 1e-9 * limits::board::sampleRateHz;
     }
     /// The last that it was told of the first channel.
-    int gain() const {
-        const std::scoped_lock lock{mutex_};
-        return gains_.gains[0];
-    }
+    int gain() const { return locked(gains_).gains[0]; }
     /// From now on the line loses so many of each new gains, before one is heard.
     void loseGains(int messages) {
         const std::scoped_lock lock{mutex_};
@@ -47,34 +36,24 @@ public:
     }
     /// How often it was asked for telemetry, which is once a second, between the newest gains and their being
     /// heard.
-    int secondsLate() const {
-        const std::scoped_lock lock{mutex_};
-        return secondsLate_;
-    }
-    std::vector<wire::Strike> strikes() const {
-        const std::scoped_lock lock{mutex_};
-        return strikes_;
-    }
+    int secondsLate() const { return locked(secondsLate_); }
+    std::vector<wire::Strike> strikes() const { return locked(strikes_); }
+    std::vector<BoardSegment> segments() const { return locked(segments_); }
     /// How often it was told to stop, and what came after the last of these.
-    int stops() const {
-        const std::scoped_lock lock{mutex_};
-        return stops_;
-    }
-    std::size_t sinceStop() const {
-        const std::scoped_lock lock{mutex_};
-        return sinceStop_;
-    }
+    int stops() const { return locked(stops_); }
+    std::size_t sinceStop() const { return locked(sinceStop_); }
     /// What it answers from now on.
     void count(const wire::Telemetry& telemetry) {
         const std::scoped_lock lock{mutex_};
         telemetry_ = telemetry;
     }
-    std::vector<BoardSegment> segments() const {
-        const std::scoped_lock lock{mutex_};
-        return segments_;
-    }
 
 private:
+    template <class Value>
+    Value locked(const Value& value) const {
+        const std::scoped_lock lock{mutex_};
+        return value;
+    }
     void run() {
         wire::FrameDecoder decoder;
         while (!stop_) {

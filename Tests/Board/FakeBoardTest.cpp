@@ -72,10 +72,7 @@ TEST(BoardLinkWithAFakeBoard, SilenceOfTheDeviceBesideItIsItsOwn) {
 /// From A to B to D in a second, on a session beside a fake device, until the board has been told to its end.
 BoardLinkStatus playPath(FakeBoard& board) {
     BesideDevice played{board};
-    CollisionEvent first;
-    first.frequencyHz = 205.0;
-    first.amplitude = 0.5;
-    first.y = 4.0;
+    CollisionEvent first{.frequencyHz = 205.0, .amplitude = 0.5, .y = 4.0};
     CollisionEvent second = first;
     first.durationNs = second.timeNs = 400 * ms;
     first.course = {4.0, 4.0, first.durationNs, 0};
