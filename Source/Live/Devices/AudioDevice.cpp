@@ -232,12 +232,10 @@ const char* layoutFor(int outputs, std::string_view device) {
     return outputs >= 4 ? "phone4" : outputs == 3 ? "phone3" : outputs == 2 ? "phone2" : "phone1";
 }
 
-std::unique_ptr<AudioDriver> makeNoDeviceDriver() { return std::make_unique<NoDeviceDriver>(); }
-
 AudioDrivers withNoDevice(AudioDrivers drivers) {
     return [drivers = std::move(drivers)] {
         auto all = drivers();
-        all.push_back(makeNoDeviceDriver());
+        all.push_back(std::make_unique<NoDeviceDriver>());
         return all;
     };
 }

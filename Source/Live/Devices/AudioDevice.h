@@ -204,10 +204,8 @@ private:
 inline constexpr const char* noDeviceType = "None";
 inline constexpr const char* noDeviceName = "no device";
 
-/// A driver with that one device: 64 outputs, 48 kHz and blocks of 512 frames unless set otherwise. M.
-std::unique_ptr<AudioDriver> makeNoDeviceDriver();
-
-/// These drivers and the null driver. M.
+/// These drivers, and one with that device alone: 64 outputs, 48 kHz and blocks of 512 frames unless set
+/// otherwise. M.
 AudioDrivers withNoDevice(AudioDrivers drivers);
 
 // The Raspberry Pi Pico (Docs/pico.md) among the audio devices: an ordinary sound card that is known by its

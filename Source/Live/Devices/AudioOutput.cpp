@@ -45,14 +45,6 @@ std::string AudioOutput::open(const AudioOutputSettings& settings) {
     return openDevice(opening);
 }
 
-std::string AudioOutput::assign(const std::vector<int>& channelMap, int enchanters) {
-    return remap(channelMap, enchanters, settings_.listening);
-}
-
-std::string AudioOutput::hear(const ListeningSettings& listening) {
-    return remap(settings_.channelMap, settings_.enchanters, listening);
-}
-
 std::string AudioOutput::remap(const std::vector<int>& channelMap, int enchanters,
                                const ListeningSettings& listening) {
     if (auto error = map_.want(played_.own().channels(), channelMap, enchanters, listening.outputs());

@@ -36,7 +36,9 @@ public:
 
     /// Changes the assignment of outputs and the number of actuators, without interruption if the device's
     /// outputs are open. Returns empty, or one line with the reason, in which case nothing changes. M.
-    std::string assign(const std::vector<int>& channelMap, int enchanters);
+    std::string assign(const std::vector<int>& channelMap, int enchanters) {
+        return remap(channelMap, enchanters, settings_.listening);
+    }
 
     /// The device output of each actuator, from 0, as assigned last; -1: none. M.
     const std::vector<int>& channelMap() const noexcept { return settings_.channelMap; }
@@ -46,7 +48,9 @@ public:
 
     /// Changes what plays on the listening outputs, without interruption as in assign(). Returns empty, or
     /// one line with the reason, in which case nothing changes. M.
-    std::string hear(const ListeningSettings& listening);
+    std::string hear(const ListeningSettings& listening) {
+        return remap(settings_.channelMap, settings_.enchanters, listening);
+    }
 
     /// Plays `other` from its beginning, from the next block on, while the output's own session pauses; null
     /// returns to the own session. `other` has no more channels and outputs than the own session and no

@@ -213,15 +213,9 @@ JackClient::~JackClient() {
 
 bool JackClient::isAlive() const noexcept { return client_ != nullptr && serversLost == server_; }
 
-JackClient::Held JackClient::hold() const {
+JackClient::Held JackClient::hold(bool isSoon) const {
     if (!isAlive()) return {};
-    Held held{openingJack};
-    return isAlive() ? std::move(held) : Held{};
-}
-
-JackClient::Held JackClient::holdSoon() const {
-    if (!isAlive()) return {};
-    Held held{openingJack, std::chrono::milliseconds{50}};
+    Held held = isSoon ? Held{openingJack, std::chrono::milliseconds{50}} : Held{openingJack};
     return held && isAlive() ? std::move(held) : Held{};
 }
 

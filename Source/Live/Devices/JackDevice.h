@@ -54,8 +54,8 @@ public:
     /// JACK may be called for this client while the lock is held. Empty: it has lost its server, or, of
     /// holdSoon(), another client has been in opening for 50 ms.
     using Held = std::shared_lock<std::shared_timed_mutex>;
-    Held hold() const;
-    Held holdSoon() const;
+    Held hold(bool isSoon = false) const;
+    Held holdSoon() const { return hold(true); }
     jack_client_t* get() const noexcept { return client_; }
 
     /// Full names ("system:playback_1") of the audio ports that take samples (JackPortIsInput) or give them

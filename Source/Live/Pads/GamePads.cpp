@@ -200,11 +200,7 @@ std::vector<GamePadInfo> GamePads::list() {
     const JoystickLock lock{*sdl_};
     for (int i = 0; i < sdl_->NumJoysticks(); ++i) {
         const GamePadInfo info = infoOf(*sdl_, i);
-        if (!take(info.id)) {
-            found.push_back(info);
-            continue;
-        }
-        found.push_back(SdlPad{*sdl_, i}.info());
+        found.push_back(take(info.id) ? SdlPad{*sdl_, i}.info() : info);
     }
     return found;
 }
