@@ -3,16 +3,10 @@
 // misbehave.
 #include "Live/Session/Session.h"
 #include "FakeHost.h"
-#include "Live/Session/OfflineRender.h"
 #include "Scene/EventsCsv.h"
 #include "Scene/World/SceneCast.h"
-#include "Scene/World/Simulation.h"
-#include <algorithm>
-#include <atomic>
-#include <chrono>
 #include <future>
 #include <gtest/gtest.h>
-#include <thread>
 
 namespace physvib {
 namespace {
@@ -57,20 +51,14 @@ SessionSetup setupOfSlides() {
     Material stone{"stone", 10.0, 0.0, 0.0, 200.0, 60.0};
     stone.grainMetres = 0.001;
     s.scene.materials = {stone, {"glass", 10.0, 0.0, 0.0, 480.0, 60.0}};
-    BodyDescription floor;
-    floor.name = "floor";
-    floor.type = BodyType::staticBody;
-    floor.fixtures = {{BoxShape{20.0, 1.0}, {}, 0.0, 0, true}};
-    floor.positionMetres = {10.0, 0.5};
-    floor.massKg = 10.0;
-    s.scene.bodies = {floor};
+    s.scene.bodies = {
+        {"floor", BodyType::staticBody, {{BoxShape{20.0, 1.0}, {}, 0.0, 0, true}}, {10.0, 0.5}}};
+    s.scene.bodies[0].massKg = 10.0;
     for (int i = 0; i < 10; ++i) {
-        BodyDescription ball;
-        ball.name = "ball" + std::to_string(i);
-        ball.fixtures = {{CircleShape{0.2}, {}, 0.0, 1}};
-        ball.positionMetres = {0.5 + i, 1.2 + 0.01};
-        ball.velocityMetresPerSecond = {1.0, 0.0};
-        s.scene.bodies.push_back(ball);
+        const FixtureDescription disc{CircleShape{0.2}, {}, 0.0, 1};
+        s.scene.bodies.push_back(
+            {"ball" + std::to_string(i), BodyType::dynamicBody, {disc}, {0.5 + i, 1.2 + 0.01}});
+        s.scene.bodies.back().velocityMetresPerSecond = {1.0, 0.0};
     }
     s.panner = {s.panner.layout(), PanningLaw::linear, 1, 20.0, 4.0};
     return s;
