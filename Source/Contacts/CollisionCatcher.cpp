@@ -148,8 +148,6 @@ Collision* CollisionCatcher::weakest(bool isDirect) noexcept {
     return found;
 }
 
-// Tracks the impulses of the last steps per contact of a haptic source, and subtracts the resting load.
-
 namespace {
 constexpr std::size_t expectedContacts = 128, expectedLoads = 48; // a load has 160 bytes
 }

@@ -159,8 +159,6 @@ void FullScale::learn(std::span<const Impact> impacts, const StepSpan& step, con
     level_ = std::max({fallen, sounding_, thresholds * step.leastMetresPerSecond * heaviestKg});
 }
 
-// Sorts the arrival numbers of held events when they are released; the events themselves do not move.
-
 // Doubles. What follows in the same step then needs no memory.
 bool EventSorter::grow() noexcept {
     constexpr std::size_t least = 64;

@@ -15,9 +15,8 @@
 
 namespace physvib {
 
-// Which body's sound an impact of a haptic source plays.
-
-/// own: the sound of the haptic source; other: that of the body that collides with it; both: one each.
+/// The sound of an impact. own: that of the haptic source; other: that of the body that collides with it;
+/// both: one each.
 enum class Voice { own, other, both };
 
 /// A mode that sounds together with the first one.
@@ -87,8 +86,6 @@ struct [[nodiscard]] SetResult {
     std::string_view refusal; ///< the reason; empty: the values are set
     explicit operator bool() const noexcept { return refusal.empty(); } ///< True if the values are set.
 };
-
-// Sounds of pairs of surfaces, where a pair sounds different from either surface.
 
 /// The sound of a haptic source when a fixture of the other kind collides with it, whatever its voice.
 struct PairSound {
