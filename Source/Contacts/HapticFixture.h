@@ -8,10 +8,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace physvib {
 
@@ -109,34 +109,18 @@ public:
                                                     .sound = sound.sound});
             !fault.empty())
             return fault;
-        const auto pair = pairOf(surface, other);
-        if (const auto known = placeOf(pair); known != sounds_.end() && known->pair == pair)
-            sounds_[static_cast<std::size_t>(known - sounds_.begin())].sound = sound;
-        else
-            sounds_.insert(known, {pair, sound});
+        sounds_.insert_or_assign(std::minmax(surface, other), sound);
         return {};
     }
 
     /// nullptr: the pair has no sound of its own.
     const PairSound* find(int surface, int other) const noexcept {
-        if (surface <= 0 || other <= 0) return nullptr;
-        const auto pair = pairOf(surface, other);
-        const auto known = placeOf(pair);
-        return known != sounds_.end() && known->pair == pair ? &known->sound : nullptr;
+        const auto known = sounds_.find(std::minmax(surface, other));
+        return known != sounds_.end() ? &known->second : nullptr;
     }
 
 private:
-    using Pair = std::pair<int, int>; // the smaller number first
-    struct Entry {
-        Pair pair;
-        PairSound sound;
-    };
-    static Pair pairOf(int surface, int other) noexcept { return std::minmax(surface, other); }
-    std::vector<Entry>::const_iterator placeOf(Pair pair) const noexcept {
-        return std::ranges::lower_bound(sounds_, pair, {}, &Entry::pair);
-    }
-
-    std::vector<Entry> sounds_; // in order of their pairs
+    std::map<std::pair<int, int>, PairSound> sounds_; // the smaller number first
 };
 
 } // namespace physvib

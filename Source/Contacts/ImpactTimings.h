@@ -15,9 +15,9 @@ struct HardCollision {
     std::int32_t a, b, pair; // slots, and the number of their pair
     std::int64_t timeNs;
     double newtonSeconds;
-    double aftermath; // N s that the pair added in the next step
-    std::int32_t componentA, componentB;
-    std::int32_t nextA, nextB; // the next weaker collision of the same slot
+    double aftermath = 0.0; // N s that the pair added in the next step
+    std::int32_t componentA = 0, componentB = 0;
+    std::int32_t nextA = SlotMap::none, nextB = SlotMap::none; // the next weaker collision of the same slot
 };
 
 /// Sums are kept per component of the graph, so that a query costs the same however many collisions there
@@ -31,7 +31,7 @@ public:
         const HardCollision* strongest = nullptr;    // nullptr: none
         double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
     };
-    void clear() noexcept;
+    void clear() noexcept { strikes_.clear(); }
     void add(const HardCollision& strike);
     bool isEmpty() const noexcept { return strikes_.empty(); }
 
@@ -125,8 +125,6 @@ private:
     void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span,
                   std::vector<Impact>& impacts) const;
     void begin();
-    static HandedOn handOn(std::int32_t camera, const StrikeCauses::Found& found,
-                           const ChainLoads::Passed& passed, Vector3 point) noexcept;
 
     CollisionCatcher& catcher_;
     const FixtureTable& table_;
@@ -196,7 +194,6 @@ private:
     };
     void open(const StepSpan& span);
     void openDirect(const Collision& collision, const StepSpan& span);
-    void openHandedOn(const StepSpan& span);
     void openHandedOn(std::int32_t camera, const StepSpan& span);
     void findCauses(const StepSpan& span);
     bool isStronger(std::int32_t collision, std::int32_t than) const noexcept;

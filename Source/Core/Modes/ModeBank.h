@@ -191,10 +191,8 @@ private:
     Mode modeFor(const Strike& strike) const noexcept;
     void setIncrements(Mode& mode) const noexcept;
     int slotFor(const Strike& strike) noexcept;
-    int find(const Mode& wanted) const noexcept;
     int create(const Mode& mode) noexcept;
     void add(int slot, const Strike& strike, const double* gains) noexcept;
-    void finishStrikes() noexcept;
     void release(int slot) noexcept;
     void recycle(int slot) noexcept;
     void fade(int slot, std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
@@ -206,7 +204,6 @@ private:
     void renewCarrier(int slot) noexcept;
     void retireModes() noexcept;
     void shape(int slot) noexcept;
-    void redoTile(int slot, std::int64_t frame) noexcept;
     void enterTile(std::int64_t frame) noexcept;
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
     Complex<double> carrier(const Mode& mode) const noexcept;
