@@ -148,15 +148,10 @@ Collision* CollisionCatcher::weakest(bool isDirect) noexcept {
     return found;
 }
 
-// Tracks the impulses of the last steps per contact of a haptic source, and subtracts the resting load.
-
-namespace {
-constexpr std::size_t expectedContacts = 128, expectedLoads = 48; // a load has 160 bytes
-}
-
 ChainLoads::ChainLoads(const FixtureTable& table, TouchingPairs& pairs)
     : table_(table)
     , pairs_(pairs) {
+    constexpr std::size_t expectedContacts = 128, expectedLoads = 48; // a load has 160 bytes
     contacts_.reserve(expectedLoads);
     passed_.reserve(expectedContacts);
     receivers_.reserve(expectedContacts);

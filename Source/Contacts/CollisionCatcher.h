@@ -12,13 +12,11 @@
 
 namespace physvib {
 
-// Finds impulses that reach haptic sources through existing contacts: impacts that neighbours transmit.
-
-/// Watches the existing contacts of haptic sources. Resting bodies push too, equally in every step: that is a
-/// contact's load, the smallest of its impulses in the last three steps (an impact, which may take two, is no
-/// load). The excess over the load is a transmitted impact; an impulse below it is none. Impulses at one body
-/// are summed as vectors; the spin of Eq. 5.2 is not added, because the sum is already the whole impulse.
-/// Allocates when the world grows. World thread (M).
+/// Watches the existing contacts of haptic sources for impacts that neighbours transmit. Resting bodies push
+/// too, equally in every step: that is a contact's load, the smallest of its impulses in the last three steps
+/// (an impact, which may take two, is no load). The excess over the load is a transmitted impact; an impulse
+/// below it is none. Impulses at one body are summed as vectors; the spin of Eq. 5.2 is not added, because
+/// the sum is already the whole impulse. Allocates when the world grows. World thread (M).
 class ChainLoads {
 public:
     /// Where a contact is: of many it is never asked, so what an engine has is kept as it is.

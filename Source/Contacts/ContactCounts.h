@@ -132,8 +132,6 @@ std::string describe(const ContactCounts& counts, const OutputFacts* output = nu
 /// known. Any thread.
 std::string outputReason(const ContactCounts& made, const OutputFacts& output);
 
-// Words that explanations share.
-
 /// Three digits, with a point in every locale. Any thread.
 std::string threeDigits(double value);
 

@@ -186,14 +186,10 @@ void ContactEvents::keepStrongest(std::size_t count) {
     impacts_.erase(impacts_.begin() + static_cast<std::ptrdiff_t>(count), impacts_.end());
 }
 
-void ContactEvents::leaveOutSettling() {
-    const double endNs = settings_.settlingSeconds * 1.0e9;
-    catcher_.tally().settling += std::erase_if(
-        impacts_, [endNs](const Impact& impact) { return static_cast<double>(impact.timeNs) < endNs; });
-}
-
 void ContactEvents::addImpacts() {
-    if (settings_.settlingSeconds > 0.0) leaveOutSettling();
+    if (const double endNs = settings_.settlingSeconds * 1.0e9; endNs > 0.0)
+        catcher_.tally().settling += std::erase_if(
+            impacts_, [endNs](const Impact& impact) { return static_cast<double>(impact.timeNs) < endNs; });
     if (impacts_.empty()) return;
     if (isAutomatic(settings_)) {
         fullScale_.learn(impacts_, span_, table_);
@@ -232,9 +228,6 @@ ContactCounts ContactEvents::takeRecent() noexcept {
     catcher_.tally() = {};
     return now;
 }
-
-void ContactEvents::drain(std::vector<CollisionEvent>& events) { held_.release(settledNs(), events); }
-void ContactEvents::flush(std::vector<CollisionEvent>& events) { held_.flush(events); }
 
 void ContactEvents::shift(Vector2 by) noexcept {
     settings_.fieldOrigin += by;

@@ -83,10 +83,10 @@ public:
     double stepSeconds() const noexcept { return span_.seconds(); }
 
     /// Appends the final events in time order.
-    void drain(std::vector<CollisionEvent>& events);
+    void drain(std::vector<CollisionEvent>& events) { held_.release(settledNs(), events); }
 
     /// Appends all events, final or not, for immediate use. Later events may precede them by up to a step.
-    void flush(std::vector<CollisionEvent>& events);
+    void flush(std::vector<CollisionEvent>& events) { held_.flush(events); }
 
     /// The engine has shifted all coordinates (a new origin): shifts pending impacts, and the field, so that
     /// events keep their places in it.
@@ -114,7 +114,6 @@ private:
     void finish();
     void addImpacts();
     EventMaker makeEvents() noexcept;
-    void leaveOutSettling();
     void keepStrongest(std::size_t count);
     void forget(std::int32_t slot, bool isWithdrawn, bool othersToo);
 

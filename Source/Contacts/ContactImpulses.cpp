@@ -12,6 +12,9 @@ namespace {
 
 constexpr std::size_t maxPoints = 16; // per pair; further ones lie between the others
 constexpr int mostLandingSweeps = 200;
+constexpr int mostMomentumSweeps = 60;
+constexpr double roughest = 1.5;  // friction per normal impulse, of rubber
+constexpr double enough = 1.0e-4; // convergence: change in a sweep, relative to the strongest impulse
 
 /// Target speed of each point, and the coupling between points.
 struct Problem {
@@ -99,15 +102,6 @@ void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::sp
 }
 
 // Gauss-Seidel sweeps over all contact points of a step.
-
-namespace {
-
-constexpr int mostMomentumSweeps = 60;
-constexpr double roughest = 1.5;  // friction per normal impulse, of rubber
-constexpr double enough = 1.0e-4; // convergence: change in a sweep, relative to the strongest impulse
-
-} // namespace
-
 void MomentumImpulses::clear() {
     bodies_.clear();
     bodyOf_.clear();

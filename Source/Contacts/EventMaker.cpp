@@ -18,6 +18,16 @@ double handMassOf(const HapticFixture& camera, const ImpactModel& model) noexcep
     return camera.handMassKg.value_or(model.handMassKg);
 }
 
+// The exponent of a strength is 1.5: between 1, the sum of vibrations in phase, and 2, of those that are not.
+double powerOf(double strength) { return strength * std::sqrt(strength); }
+double strengthOf(double power) { return portable::pow(power, 2.0 / 3.0); }
+
+// Infinite if neither body can be moved: such an impact says nothing about speeds.
+double lighterMassKg(const Impact& impact, const FixtureTable& table) {
+    const double own = table[impact.camera].movableMassKg();
+    return impact.other == FixtureTable::none ? own : std::min(own, table[impact.other].movableMassKg());
+}
+
 } // namespace
 
 double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies,
@@ -126,20 +136,6 @@ void EventMaker::addModes(const Sound& sound) noexcept {
         if (mode.frequencyHz > 0.0) add(mode.frequencyHz, mode.decayPerSecond, mode.relativeAmplitude, 0);
 }
 
-namespace {
-
-// The exponent of a strength is 1.5: between 1, the sum of vibrations in phase, and 2, of those that are not.
-double powerOf(double strength) { return strength * std::sqrt(strength); }
-double strengthOf(double power) { return portable::pow(power, 2.0 / 3.0); }
-
-// Infinite if neither body can be moved: such an impact says nothing about speeds.
-double lighterMassKg(const Impact& impact, const FixtureTable& table) {
-    const double own = table[impact.camera].movableMassKg();
-    return impact.other == FixtureTable::none ? own : std::min(own, table[impact.other].movableMassKg());
-}
-
-} // namespace
-
 void FullScale::learn(std::span<const Impact> impacts, const StepSpan& step, const FixtureTable& table) {
     double power = 0.0, heaviestKg = 0.0;
     bool isHeard = false;
@@ -158,8 +154,6 @@ void FullScale::learn(std::span<const Impact> impacts, const StepSpan& step, con
     const double thresholds = level_ > 0.0 ? leastThresholds : firstThresholds;
     level_ = std::max({fallen, sounding_, thresholds * step.leastMetresPerSecond * heaviestKg});
 }
-
-// Sorts the arrival numbers of held events when they are released; the events themselves do not move.
 
 // Doubles. What follows in the same step then needs no memory.
 bool EventSorter::grow() noexcept {

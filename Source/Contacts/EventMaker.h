@@ -19,10 +19,8 @@
 
 namespace physvib {
 
-// Holds events until no earlier one can arrive, and releases them in time order.
-
-/// Sorted by time, then by fixture id, then by arrival. Memory grows with what waits, up to the capacity.
-/// World thread (M).
+/// Holds events until no earlier one can arrive, sorted by time, then by fixture id, then by arrival. Memory
+/// grows with what waits, up to the capacity. World thread (M).
 class EventSorter {
 public:
     explicit EventSorter(std::size_t capacity)
@@ -212,9 +210,8 @@ private:
 double amplitudeOf(const Impact& impact, const FixtureTable& table, const BodyReader& bodies,
                    const ImpactModel& model);
 
-// The impulse that gives full scale, learned from the hits of a world, so that nobody has to guess a gain.
-
-/// Follows the strength of the hardest usual hit and puts it 6 dB below full scale.
+/// Follows the strength of the hardest usual hit and puts it 6 dB below full scale, so that nobody has to
+/// guess a gain.
 ///
 /// Strength is the impulse of what sounds at once: impulses are summed to the power of 1.5, between the sum
 /// of vibrations in phase and that of powers. It fades by 30 per second, as a usual vibration does. The level

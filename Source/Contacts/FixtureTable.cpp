@@ -119,8 +119,6 @@ double FixtureTable::largestStaticMassKg(const BodyReader& bodies) {
     return largest;
 }
 
-// Connected components of the contact graph by union-find over the live edges.
-
 inline void ContactGraph::unite(const Edge& edge) noexcept {
     if (!edge.unites) return;
     const std::int32_t a = root(edge.a), b = root(edge.b);

@@ -115,10 +115,9 @@ private:
     bool isWeightStale_ = false;
 };
 
-// Numbers for pairs of touching fixtures, under which their data are stored and found without a search.
-
-/// A pair of slots has a number while it touches or while one of its fields is set. Check a number kept for
-/// longer with `is`. Allocates only to grow. World thread (M).
+/// A pair of slots has a number, under which its data are found without a search, while it touches or while
+/// one of its fields is set. Check a number kept for longer with `is`. Allocates only to grow. World thread
+/// (M).
 class TouchingPairs {
 public:
     static constexpr std::int32_t none = IntegerMap::none;
@@ -204,9 +203,8 @@ private:
     std::vector<std::int32_t> loose_; // candidates to be freed
 };
 
-// Contact graph: which fixtures are connected through touching ones (the thesis' contact-state graph, 5.1.3).
-
-/// Undirected graph over small indices, updated edge by edge as contacts begin and end. The thesis searches
+/// Which fixtures are connected through touching ones (the thesis' contact-state graph, 5.1.3): an undirected
+/// graph over small indices, updated edge by edge as contacts begin and end. The thesis searches
 /// breadth-first from both nodes of a new contact (v1, v2). Both trees cross the new edge, so together they
 /// visit exactly component(v1). Therefore union-find replaces the search; it is rebuilt at most once between
 /// a removal and the next query. A node that is not passing (an immovable body, which absorbs an impulse

@@ -10,9 +10,8 @@
 
 namespace physvib {
 
-// Surface texture for rolling and sliding: spacing and strength of the roughness elements (grains).
-
-/// random: like cloth, stone or wood. regular: ridges, felt as a tone of frequency speed / spacing.
+/// Of the roughness elements of a surface (grains). random: like cloth, stone or wood. regular: ridges, felt
+/// as a tone of frequency speed / spacing.
 enum class GrainPattern { random, regular };
 
 /// Grains of a surface. Passing a grain gives both bodies a small impact.

@@ -8,16 +8,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 namespace physvib {
 
-// Which body's sound an impact of a haptic source plays.
-
-/// own: the sound of the haptic source; other: that of the body that collides with it; both: one each.
+/// The sound of an impact. own: that of the haptic source; other: that of the body that collides with it;
+/// both: one each.
 enum class Voice { own, other, both };
 
 /// A mode that sounds together with the first one.
@@ -88,8 +87,6 @@ struct [[nodiscard]] SetResult {
     explicit operator bool() const noexcept { return refusal.empty(); } ///< True if the values are set.
 };
 
-// Sounds of pairs of surfaces, where a pair sounds different from either surface.
-
 /// The sound of a haptic source when a fixture of the other kind collides with it, whatever its voice.
 struct PairSound {
     double frequencyHz = 0.0;    ///< 0: silent
@@ -112,34 +109,18 @@ public:
                                                     .sound = sound.sound});
             !fault.empty())
             return fault;
-        const auto pair = pairOf(surface, other);
-        if (const auto known = placeOf(pair); known != sounds_.end() && known->pair == pair)
-            sounds_[static_cast<std::size_t>(known - sounds_.begin())].sound = sound;
-        else
-            sounds_.insert(known, {pair, sound});
+        sounds_.insert_or_assign(std::minmax(surface, other), sound);
         return {};
     }
 
     /// nullptr: the pair has no sound of its own.
     const PairSound* find(int surface, int other) const noexcept {
-        if (surface <= 0 || other <= 0) return nullptr;
-        const auto pair = pairOf(surface, other);
-        const auto known = placeOf(pair);
-        return known != sounds_.end() && known->pair == pair ? &known->sound : nullptr;
+        const auto known = sounds_.find(std::minmax(surface, other));
+        return known != sounds_.end() ? &known->second : nullptr;
     }
 
 private:
-    using Pair = std::pair<int, int>; // the smaller number first
-    struct Entry {
-        Pair pair;
-        PairSound sound;
-    };
-    static Pair pairOf(int surface, int other) noexcept { return std::minmax(surface, other); }
-    std::vector<Entry>::const_iterator placeOf(Pair pair) const noexcept {
-        return std::ranges::lower_bound(sounds_, pair, {}, &Entry::pair);
-    }
-
-    std::vector<Entry> sounds_; // in order of their pairs
+    std::map<std::pair<int, int>, PairSound> sounds_; // the smaller number first
 };
 
 } // namespace physvib

@@ -10,8 +10,6 @@
 
 namespace physvib {
 
-// Interface through which the contact stages read bodies from any physics engine.
-
 /// Properties of a body. Fixtures and bodies are identified by numbers of the engine's choice (addresses,
 /// ids): not 0, and unique among those that exist at the same time.
 struct BodyFacts {

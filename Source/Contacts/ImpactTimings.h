@@ -10,16 +10,14 @@
 
 namespace physvib {
 
-// The collisions of one step, and which of them reach a haptic source through a path of contacts.
-
 /// A collision above the impact threshold.
 struct HardCollision {
     std::int32_t a, b, pair; // slots, and the number of their pair
     std::int64_t timeNs;
     double newtonSeconds;
-    double aftermath; // N s that the pair added in the next step
-    std::int32_t componentA, componentB;
-    std::int32_t nextA, nextB; // the next weaker collision of the same slot
+    double aftermath = 0.0; // N s that the pair added in the next step
+    std::int32_t componentA = 0, componentB = 0;
+    std::int32_t nextA = SlotMap::none, nextB = SlotMap::none; // the next weaker collision of the same slot
 };
 
 /// Sums are kept per component of the graph, so that a query costs the same however many collisions there
@@ -33,7 +31,7 @@ public:
         const HardCollision* strongest = nullptr;    // nullptr: none
         double newtonSeconds = 0.0, aftermath = 0.0; // of all of them
     };
-    void clear() noexcept;
+    void clear() noexcept { strikes_.clear(); }
     void add(const HardCollision& strike);
     bool isEmpty() const noexcept { return strikes_.empty(); }
 
@@ -78,16 +76,14 @@ private:
     Found around_;                      // the last that was looked for, or none
 };
 
-// `onset` timing: impacts of haptic sources from the solver's impulses, when a contact begins.
-
-/// A haptic source that takes part in a collision receives its impulse in that step. One farther along the
-/// chain receives what its existing contacts transmit in that step and the next. Two are needed: engines
-/// transmit a collision of their time-of-impact pass one step later, and spread the impulse through a long
-/// chain over two steps, because their iterations end too early (a row of five: half and half). The impulse
-/// is attributed to the strongest collision that is connected by contacts. It counts once, however many
-/// collisions there are, and never exceeds what all of these gave, so that a humming machine on the same
-/// floor adds nothing. Cost grows with collisions and transmitted impulses, not with the size of the world.
-/// World thread (M).
+/// `onset` timing: from the solver's impulses, when a contact begins. A haptic source that takes part in a
+/// collision receives its impulse in that step. One farther along the chain receives what its existing
+/// contacts transmit in that step and the next. Two are needed: engines transmit a collision of their
+/// time-of-impact pass one step later, and spread the impulse through a long chain over two steps, because
+/// their iterations end too early (a row of five: half and half). The impulse is attributed to the strongest
+/// collision that is connected by contacts. It counts once, however many collisions there are, and never
+/// exceeds what all of these gave, so that a humming machine on the same floor adds nothing. Cost grows with
+/// collisions and transmitted impulses, not with the size of the world. World thread (M).
 class OnsetImpacts {
 public:
     OnsetImpacts(CollisionCatcher& catcher, const FixtureTable& table, ContactGraph& graph);
@@ -129,8 +125,6 @@ private:
     void complete(const HandedOn& handedOn, const ChainLoads::Passed& now, Later later, const StepSpan& span,
                   std::vector<Impact>& impacts) const;
     void begin();
-    static HandedOn handOn(std::int32_t camera, const StrikeCauses::Found& found,
-                           const ChainLoads::Passed& passed, Vector3 point) noexcept;
 
     CollisionCatcher& catcher_;
     const FixtureTable& table_;
@@ -140,15 +134,14 @@ private:
     SlotMap isUsed_;                // sources whose impulse of this step has been used
 };
 
-// `release` timing, as in the thesis: impulses from the velocities before a contact and at its end.
-
-/// Eq. 5.2 and 5.3: J = m dv + (I dw / |l|) t, from the beginning of a contact to its end, at most 50 ms
-/// later; the impact is timed at the end. A source that is not dynamic gets the summed momentum change of the
-/// dynamic bodies that touch it. Other causes that change these velocities meanwhile, such as gravity, are
-/// included. Therefore a source that does not collide itself gets the smaller value with and without gravity,
-/// so that neither rest nor fall counts, and at most what the collisions meanwhile gave (so that a humming
-/// machine on the same floor adds nothing to a pebble's impact). At most one such transmitted impact is
-/// pending per source. World thread (M).
+/// `release` timing, as in the thesis: from the velocities before a contact and at its end. Eq. 5.2 and 5.3:
+/// J = m dv + (I dw / |l|) t, from the beginning of a contact to its end, at most 50 ms later; the impact is
+/// timed at the end. A source that is not dynamic gets the summed momentum change of the dynamic bodies that
+/// touch it. Other causes that change these velocities meanwhile, such as gravity, are included. Therefore a
+/// source that does not collide itself gets the smaller value with and without gravity, so that neither rest
+/// nor fall counts, and at most what the collisions meanwhile gave (so that a humming machine on the same
+/// floor adds nothing to a pebble's impact). At most one such transmitted impact is pending per source. World
+/// thread (M).
 class ReleaseImpacts {
 public:
     static constexpr std::int64_t latestNs = 50'000'000; // thesis 5.1.3: released 10 to 50 ms later
@@ -201,7 +194,6 @@ private:
     };
     void open(const StepSpan& span);
     void openDirect(const Collision& collision, const StepSpan& span);
-    void openHandedOn(const StepSpan& span);
     void openHandedOn(std::int32_t camera, const StepSpan& span);
     void findCauses(const StepSpan& span);
     bool isStronger(std::int32_t collision, std::int32_t than) const noexcept;

@@ -10,8 +10,6 @@
 
 namespace physvib {
 
-// Hash table from 64-bit keys (addresses, pairs of indices) to indices.
-
 /// The key of an unordered pair of different indices (>= 0). Never 0, because the larger index is above 0.
 /// Any thread.
 constexpr std::uint64_t pairKey(std::int32_t a, std::int32_t b) noexcept {
@@ -104,10 +102,8 @@ private:
     int shift_ = 0;
 };
 
-// Array map from small indices (fixture slots) to values, cleared in constant time; for per-step data.
-
-/// Like IntegerMap, for keys that are small (>= 0) and looked up very often. Allocates when a key exceeds all
-/// earlier ones. One thread at a time.
+/// Like IntegerMap, and cleared in constant time, for keys that are small (>= 0) and looked up very often.
+/// Allocates when a key exceeds all earlier ones. One thread at a time.
 class SlotMap {
 public:
     static constexpr std::int32_t none = -1;
@@ -152,10 +148,9 @@ private:
     std::uint32_t age_ = 1;
 };
 
-// Counting hash filter: tests quickly, in the first-level cache, whether a number may be in a set.
-
-/// Never returns false for a number that was added; returns true for others with a probability that grows
-/// with the set. Counts how often a number was added. One thread at a time.
+/// A counting hash filter in the first-level cache. Never returns false for a number that was added; returns
+/// true for others with a probability that grows with the set. Counts how often a number was added. One
+/// thread at a time.
 class NameSketch {
 public:
     void add(std::uint64_t name) noexcept { ++counts_[place(name)]; }

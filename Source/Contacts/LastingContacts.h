@@ -18,12 +18,11 @@
 
 namespace physvib {
 
-// Matches the records that an engine reports in each step with those of the step before.
-
-/// Engines report contacts in nearly the same order in each step, so a record is first looked for behind the
-/// last one found; the lookup by key is needed only for records that are new, gone or reordered. A `Record`
-/// has `std::uint64_t key`, not 0, `std::int32_t now`, and `std::int32_t before`, its index in the last step,
-/// or `none`. Records are used again as they are: who gets a new one sets the rest. Allocates when a step has
+/// Matches the records that an engine reports in each step with those of the step before. Engines report
+/// contacts in nearly the same order in each step, so a record is first looked for behind the last one found;
+/// the lookup by key is needed only for records that are new, gone or reordered. A `Record` has
+/// `std::uint64_t key`, not 0, `std::int32_t now`, and `std::int32_t before`, its index in the last step, or
+/// `none`. Records are used again as they are: who gets a new one sets the rest. Allocates when a step has
 /// more records than any before. One thread at a time.
 template <class Record>
 class StepMemory {

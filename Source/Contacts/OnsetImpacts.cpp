@@ -44,8 +44,7 @@ void OnsetImpacts::strike(const StepSpan& span, std::vector<Impact>& impacts) {
         const double impulse = collision.impulse();
         if (!span.isStrike(impulse, collision.lighterMassKg, collision.gravityScale)) continue;
         const std::int64_t timeNs = span.timeNs(collision.fraction);
-        strikes_.add({collision.a, collision.b, collision.pair, timeNs, impulse, 0.0, 0, 0, SlotMap::none,
-                      SlotMap::none});
+        strikes_.add({collision.a, collision.b, collision.pair, timeNs, impulse});
         if (table_.isCamera(collision.a))
             impacts.push_back({collision.a, collision.b, timeNs, impulse, collision.point});
         if (table_.isCamera(collision.b))
@@ -137,16 +136,10 @@ void OnsetImpacts::begin() {
         if (isUsed_.isMarked(camera)) continue;
         if (const auto& found = strikes_.findPrepared(camera, graph_); found.strongest != nullptr) {
             const ChainLoads::Passed& passed = catcher_.loads().received(camera);
-            waiting_.push_back(handOn(camera, found, passed, catcher_.loads().pointOf(passed)));
+            waiting_.push_back({camera, found.strongest->timeNs, found.strongest->a, found.strongest->b,
+                                found.newtonSeconds, passed, catcher_.loads().pointOf(passed)});
         }
     }
-}
-
-OnsetImpacts::HandedOn OnsetImpacts::handOn(std::int32_t camera, const StrikeCauses::Found& found,
-                                            const ChainLoads::Passed& passed, Vector3 point) noexcept {
-    return {
-        camera, found.strongest->timeNs, found.strongest->a, found.strongest->b, found.newtonSeconds, passed,
-        point};
 }
 
 StrikeCauses::StrikeCauses() {
@@ -154,8 +147,6 @@ StrikeCauses::StrikeCauses() {
     sums_.reserve(CollisionCatcher::expectedCollisions);
     reached_.reserve(CollisionCatcher::expectedCollisions);
 }
-
-void StrikeCauses::clear() noexcept { strikes_.clear(); }
 
 void StrikeCauses::add(const HardCollision& strike) {
     strikes_.push_back(strike);
@@ -243,9 +234,7 @@ void StrikeCauses::forget(std::int32_t slot) noexcept {
 
 bool StrikeCauses::isReached(const HardCollision& strike) const noexcept {
     const auto isIn = [&](std::int32_t component) {
-        for (const std::int32_t reached : reached_)
-            if (reached == component) return true;
-        return false;
+        return std::ranges::find(reached_, component) != reached_.end();
     };
     return isIn(strike.componentA) || isIn(strike.componentB);
 }

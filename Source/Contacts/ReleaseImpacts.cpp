@@ -49,7 +49,10 @@ void ReleaseImpacts::open(const StepSpan& span) {
     for (std::size_t i = 0; i < catcher_.collisions().size(); ++i)
         // 0 for a collision that the user has disabled
         if (impulses_[i] > 0.0) openDirect(catcher_.collisions()[i], span);
-    openHandedOn(span);
+    // only haptic sources that touch something can receive transmitted impulses
+    graph_.forTouching([&](std::int32_t slot) {
+        if (table_.isCamera(slot) && underWay_.find(slot) == SlotMap::none) openHandedOn(slot, span);
+    });
 }
 
 // Finds the strongest collision of each component, the first of equal ones.
@@ -61,8 +64,8 @@ void ReleaseImpacts::findCauses(const StepSpan& span) {
         const Collision& collision = collisions[i];
         impulses_[i] = collision.impulse();
         if (!span.isStrike(impulses_[i], collision.lighterMassKg, collision.gravityScale)) continue;
-        causes_.add({collision.a, collision.b, collision.pair, span.timeNs(collision.fraction), impulses_[i],
-                     0.0, 0, 0, SlotMap::none, SlotMap::none});
+        causes_.add(
+            {collision.a, collision.b, collision.pair, span.timeNs(collision.fraction), impulses_[i]});
         for (const std::int32_t slot : {collision.a, collision.b}) {
             const std::int32_t component = graph_.component(slot);
             if (component != ContactGraph::noComponent &&
@@ -90,13 +93,6 @@ void ReleaseImpacts::openDirect(const Collision& collision, const StepSpan& span
               span.timeNs(collision.fraction), collision.point, isA ? collision.armA : collision.armB,
               isA ? collision.motionA : collision.motionB, collision.lighterMassKg, collision.gravityScale});
     }
-}
-
-// For haptic sources that touch something; only these can receive transmitted impulses.
-void ReleaseImpacts::openHandedOn(const StepSpan& span) {
-    graph_.forTouching([&](std::int32_t slot) {
-        if (table_.isCamera(slot) && underWay_.find(slot) == SlotMap::none) openHandedOn(slot, span);
-    });
 }
 
 void ReleaseImpacts::openHandedOn(std::int32_t camera, const StepSpan& span) {

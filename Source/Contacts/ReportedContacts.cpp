@@ -305,8 +305,6 @@ TouchingPairs::Name ReportedContacts::nameOf(const FedContact& contact) {
     return {a, b, events_.catcher().know(a, b)};
 }
 
-// Solves the points of a pair together at the end of a step, so that a flat landing is one impact.
-
 void ReportedContacts::settleTogether() {
     if (waiting_.empty()) return;
     momentum_.solve();

@@ -19,9 +19,8 @@
 
 namespace physvib {
 
-// Decides which contact points of a touching pair are new, by numbers or places of the last step.
-
-/// Points of pairs, of this step and of the last. World thread (M). Allocates only to grow.
+/// Points of pairs, of this step and of the last: decides by their numbers or places which are new. World
+/// thread (M). Allocates only to grow.
 class FedPoints {
 public:
     static constexpr std::int32_t none = -1; ///< of a chain: empty
@@ -63,9 +62,8 @@ private:
     std::vector<Point> now_, before_;
 };
 
-// Bodies of a world whose engine PhysVib cannot read: the caller reports their masses and motions.
-
-/// Bodies by numbers (>= 0) of the engine's side. M only.
+/// Bodies of a world whose engine PhysVib cannot read, as the caller reports them, by numbers (>= 0) of the
+/// engine's side. M only.
 class ReportedBodies final : public BodyReader {
 public:
     /// The number by which contacts and later stages identify that body.
@@ -150,8 +148,6 @@ private:
     bool isAnyAfter_ = false;
 };
 
-// Impulses at the points where two bodies collide, solved together.
-
 /// One contact point. New points are to separate at `restitution` times their approach speed; old ones only
 /// stay closed.
 struct MeetingPoint {
@@ -169,14 +165,12 @@ struct MeetingPoint {
 /// World thread (M); no allocation.
 void solve(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points);
 
-// Estimates contact impulses from the bodies' velocities before and after the solver, for engines that do not
-// report impulses.
-
-/// Finds the impulses along the normals, none of them pulling, that together explain the bodies' change of
-/// momentum (least kinetic energy of the remainder, by projected Gauss-Seidel), and then what friction
-/// explains of the rest. Joints are not known; their effects are attributed to the contacts as far as they
-/// act along the normals. A body between two others has the impulses on both sides, so a row transmits an
-/// impact, and a landing on a supported body counts the whole. World thread (M); allocates only to grow.
+/// For engines that do not report impulses: finds those along the normals, none of them pulling, that
+/// together explain the bodies' change of momentum (least kinetic energy of the remainder, by projected
+/// Gauss-Seidel), and then what friction explains of the rest. Joints are not known; their effects are
+/// attributed to the contacts as far as they act along the normals. A body between two others has the
+/// impulses on both sides, so a row transmits an impact, and a landing on a supported body counts the whole.
+/// World thread (M); allocates only to grow.
 class MomentumImpulses {
 public:
     void clear();
@@ -243,8 +237,6 @@ private:
     std::vector<PlaneBody> planeBodies_;
     std::vector<PlaneRow> planeRows_;
 };
-
-// Converts the lasting contacts (rolling, sliding) that an engine reports per step to tracked points.
 
 /// A pair in contact whose contact point moves. A ball that rolls at v over a floor: v along both. A box that
 /// slides at v: v along the floor, 0 along the box.

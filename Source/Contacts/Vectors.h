@@ -6,13 +6,9 @@
 
 namespace physvib {
 
-// In the plane.
-
-// A vector in space, in the single precision that physics engines compute with, and a body's motion there.
-
-/// A place (m), velocity (m/s), impulse (N s) and so on, as the variable's name says. What lies in the plane
-/// has z = 0, and every sum below then has the bits of the same sum of Vector2: z adds exact zeros, last. Any
-/// thread.
+/// A vector in space: a place (m), velocity (m/s), impulse (N s) and so on, as the variable's name says. What
+/// lies in the plane has z = 0, and every sum below then has the bits of the same sum of Vector2: z adds
+/// exact zeros, last. Any thread.
 struct Vector3 {
     float x = 0.0F, y = 0.0F, z = 0.0F;
 
@@ -101,8 +97,6 @@ struct BodyMotion {
     Vector2 metresPerSecond;
     float radiansPerSecond = 0.0F; ///< counter-clockwise
 };
-
-// How easily a body turns about each axis through its centre of mass.
 
 /// The inverse of the moments of inertia about the centre of mass, 1/(kg m^2): a symmetric matrix in the
 /// world's axes. All 0: nothing turns the body. Any thread.

@@ -28,6 +28,34 @@ void sortBy(const Keys& keys, std::uint8_t* begin, std::uint8_t* end) noexcept {
     sortActuators(begin, end, [&keys](std::uint8_t j) { return keys[j]; });
 }
 
+double lengthOf(const Place& vector) noexcept { return std::sqrt(scalarProduct(vector, vector)); }
+
+/// The part of `vector` that is at right angles to the unit vector.
+Place perpendicular(const Place& vector, const Place& unit) noexcept {
+    return sumOf(vector, unit, -scalarProduct(vector, unit));
+}
+
+/// At right angles to the unit vector, along x if it can be, else along y or z as far as it can be: planes of
+/// two axes keep them as their own.
+Place uprightAcross(const Place& unit) noexcept {
+    constexpr Place axes[]{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    const Place* best = axes;
+    for (const Place& axis : axes)
+        if (std::abs(scalarProduct(axis, unit)) < std::abs(scalarProduct(*best, unit)) - 1e-9) best = &axis;
+    return directionOf(perpendicular(*best, unit));
+}
+
+/// Shares of a place, `out` from the centre, among three corners: the weights with which their vectors from
+/// the centre sum to `out` (Pulkki 1997, Eq. 9). All are 0 or more if the place is in their direction.
+using Weights = std::array<double, 3>;
+Weights weightsOf(const ActuatorPlace& out, const std::array<ActuatorPlace, 3>& corner) noexcept {
+    const double volume = scalarProduct(corner[0], vectorProduct(corner[1], corner[2]));
+    Weights weights;
+    for (std::size_t i = 0; i < 3; ++i)
+        weights[i] = scalarProduct(out, vectorProduct(corner[(i + 1) % 3], corner[(i + 2) % 3])) / volume;
+    return weights;
+}
+
 } // namespace
 
 NeighbourCells::Place NeighbourCells::place(const Layout& layout, int k) const noexcept {
@@ -155,32 +183,8 @@ void NeighbourCells::ringShares(const Layout& layout, const Place& p, Shares& sh
     shares[order_[static_cast<std::size_t>((sector + 1) % layout.count)]] += second / scale;
 }
 
-// Finds the plane or the line in space that the actuators of a layout are in. Rows, grids and belts are then
-// looked for in the plane's own two coordinates.
-
-namespace {
-
-using Place = NeighbourCells::Place;
-
-double lengthOf(const Place& vector) noexcept { return std::sqrt(scalarProduct(vector, vector)); }
-
-/// The part of `vector` that is at right angles to the unit vector.
-Place perpendicular(const Place& vector, const Place& unit) noexcept {
-    return sumOf(vector, unit, -scalarProduct(vector, unit));
-}
-
-/// At right angles to the unit vector, along x if it can be, else along y or z as far as it can be: planes of
-/// two axes keep them as their own.
-Place uprightAcross(const Place& unit) noexcept {
-    constexpr Place axes[]{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
-    const Place* best = axes;
-    for (const Place& axis : axes)
-        if (std::abs(scalarProduct(axis, unit)) < std::abs(scalarProduct(*best, unit)) - 1e-9) best = &axis;
-    return directionOf(perpendicular(*best, unit));
-}
-
-} // namespace
-
+// Finds the plane or the line in space that the actuators are in. Rows, grids and belts are then looked for
+// in the plane's own two coordinates.
 NeighbourCells::NeighbourCells(const Layout& layout) noexcept {
     if (layout.count < 2 || !findPlane(layout)) return;
     std::iota(order_.begin(), order_.begin() + layout.count, std::uint8_t{0});
@@ -233,23 +237,6 @@ NeighbourCells::Axis NeighbourCells::towardsNearest(const Layout& layout) const 
     const double length = lengthOf(nearest);
     return length > 0.0 ? Axis{nearest.xMetres / length, nearest.yMetres / length} : Axis{};
 }
-
-// Shares of a place among the corners of the triangle in whose direction it lies.
-
-namespace {
-
-/// Shares of a place, `out` from the centre, among three corners: the weights with which their vectors from
-/// the centre sum to `out` (Pulkki 1997, Eq. 9). All are 0 or more if the place is in their direction.
-using Weights = std::array<double, 3>;
-Weights weightsOf(const ActuatorPlace& out, const std::array<ActuatorPlace, 3>& corner) noexcept {
-    const double volume = scalarProduct(corner[0], vectorProduct(corner[1], corner[2]));
-    Weights weights;
-    for (std::size_t i = 0; i < 3; ++i)
-        weights[i] = scalarProduct(out, vectorProduct(corner[(i + 1) % 3], corner[(i + 2) % 3])) / volume;
-    return weights;
-}
-
-} // namespace
 
 // The triangle in whose direction the place lies is the one whose smallest weight is largest: in all others
 // one is below zero. A face of more than three corners is divided at its middle. No actuator stands there, so

@@ -10,9 +10,7 @@
 
 namespace physvib {
 
-// Arithmetic of places in space. Any thread.
-
-/// The way from a to b.
+/// The way from a to b. Any thread, as all arithmetic of places.
 inline ActuatorPlace vectorFrom(const ActuatorPlace& a, const ActuatorPlace& b) noexcept {
     return {b.xMetres - a.xMetres, b.yMetres - a.yMetres, b.zMetres - a.zMetres};
 }
@@ -36,10 +34,8 @@ inline ActuatorPlace directionOf(const ActuatorPlace& vector) noexcept {
     return sumOf({}, vector, 1.0 / std::sqrt(scalarProduct(vector, vector)));
 }
 
-// Sorts numbers of actuators.
-
-/// By insertion, the smallest key first: a layout has at most 64 actuators, and a sort of the standard
-/// library is a hundredth of the page in a browser. Any thread.
+/// Sorts numbers of actuators by insertion, the smallest key first: a layout has at most 64 actuators, and a
+/// sort of the standard library is a hundredth of the page in a browser. Any thread.
 template <class Key>
 void sortActuators(std::uint8_t* begin, std::uint8_t* end, const Key& key) noexcept {
     for (std::uint8_t* next = begin; next < end; ++next) {
@@ -51,11 +47,10 @@ void sortActuators(std::uint8_t* begin, std::uint8_t* end, const Key& key) noexc
     }
 }
 
-// Shares of an impact among the actuators that surround its place: two of a row or a belt, four of a grid.
-
-/// Cells of a layout whose shape is a row, a grid or a belt, in the plane of x and y or in any other. The
-/// shares sum to one, and the actuators' places weighted by them give the place itself, anywhere within the
-/// shape. Docs/rows.md has the formulas.
+/// Shares an impact among the actuators around its place: two of a row or a belt, four of a grid. Cells of a
+/// layout whose shape is a row, a grid or a belt, in the plane of x and y or in any other. The shares sum to
+/// one, and the actuators' places weighted by them give the place itself, anywhere within the shape.
+/// Docs/rows.md has the formulas.
 class NeighbourCells {
 public:
     using Layout = EnchanterLayout;
@@ -113,13 +108,11 @@ private:
     std::array<std::uint8_t, limits::maxEnchanters> order_{};
 };
 
-// Shares of an impact among the actuators of a layout in space that closes around its centre, as a sleeve or
-// a vest does: panning over triangles.
-
-/// Triangles between the actuators, as amplitude panning over triangles has them between loudspeakers
-/// (Pulkki 1997). They follow from the actuators' directions, seen from the mean of their places, and are
-/// found once, when the object is made. The shares sum to one, and the actuators' places weighted by them
-/// give the place itself, anywhere within the surface. Docs/space.md has the formulas.
+/// Triangles between the actuators of a layout that closes around its centre, as a sleeve or a vest does: as
+/// amplitude panning over triangles has them between loudspeakers (Pulkki 1997). They follow from the
+/// actuators' directions, seen from the mean of their places, and are found once, when the object is made.
+/// The shares sum to one, and the actuators' places weighted by them give the place itself, anywhere within
+/// the surface. Docs/space.md has the formulas.
 class TriangleCells {
 public:
     using Layout = ActuatorLayout;

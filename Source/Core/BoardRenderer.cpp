@@ -31,12 +31,8 @@ bool exceeds(const PhasorBank::Block& block) noexcept {
 } // namespace
 
 void BoardRenderer::prepare() noexcept {
-    bank_.clear();
-    segments_.clear();
-    pending_.clear();
-    nextDue_ = never;
+    stopAll();
     for (auto& gain : gains_) gain.prepare(limits::board::sampleRateHz, limits::channelRampSeconds, 1.0f);
-    linkedGain_ = 1.0f;
     guard_.prepare();
     frame_ = 0;
     played_ = late_ = dropped_ = 0;

@@ -18,15 +18,13 @@
 
 namespace physvib {
 
-// Output guard of the four-channel board against slow signals: applies GuardLaw to the converter codes that
-// were sent, once per block.
-//
-// It sums codes, not samples, so that the converters' rounding is included. It is the board's only guard, so
-// it uses the bounds of GuardPlace::last. Deciding per block (half a millisecond) costs more than per two
-// blocks, but lets full scale pass unchanged from 31 Hz on, as on a computer; with two blocks it would be 37
-// Hz.
-
-/// Render thread (R) only; prepare: message thread (M).
+/// Output guard of the four-channel board against slow signals: applies GuardLaw to the converter codes that
+/// were sent, once per block.
+///
+/// It sums codes, not samples, so that the converters' rounding is included. It is the board's only guard, so
+/// it uses the bounds of GuardPlace::last. Deciding per block (half a millisecond) costs more than per two
+/// blocks, but lets full scale pass unchanged from 31 Hz on, as on a computer; with two blocks it would be 37
+/// Hz. Render thread (R) only; prepare: message thread (M).
 class BoardGuard {
 public:
     static constexpr int channels = PhasorBank::channels;
@@ -72,13 +70,11 @@ private:
     bool acts_ = false;
 };
 
-// Player of moving-tone segments on the four-channel board: segments that are pending or sounding.
-//
-// A segment keeps one phasor, as a mode of PhasorBank does, and a start and an end gain per channel, between
-// which gains are interpolated. Segments are summed in order of arrival, so that a computer computes the same
-// bits as the board.
-
-/// All memory is inside the object. Render thread (R) only.
+/// Player of moving-tone segments on the four-channel board: segments that are pending or sounding.
+///
+/// A segment keeps one phasor, as a mode of PhasorBank does, and a start and an end gain per channel, between
+/// which gains are interpolated. Segments are summed in order of arrival, so that a computer computes the
+/// same bits as the board. All memory is inside the object. Render thread (R) only.
 class MovingSegments {
 public:
     static constexpr int capacity = limits::board::maxSegments;

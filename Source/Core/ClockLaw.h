@@ -7,8 +7,6 @@
 
 namespace physvib {
 
-// Converts session time in nanoseconds to sample frames, exactly: integers only, at any sample rate.
-
 /// An onset on the frame grid. `frame` is the first one not before the onset, which is `leadFrames` earlier.
 struct FramePosition {
     std::int64_t frame = 0;  ///< counted from 0
@@ -40,9 +38,7 @@ private:
     std::int64_t rate_;
 };
 
-// The output latency L as a formula: an event at world time w is played at w + L, and L is constant.
-
-/// What the output latency L has to cover.
+/// What the output latency L has to cover: an event at world time w is played at w + L, and L is constant.
 struct ClockLaw {
     int sampleRateHz = 48000;       ///< of the audio device
     int blockFrames = 512;          ///< the largest block

@@ -85,18 +85,14 @@ bool hasParts(const ActuatorLayout& layout) noexcept {
 }
 
 bool layoutPreset(std::string_view name, ActuatorLayout& layout) noexcept {
-    for (const Preset& preset : presets) {
-        if (preset.name != name) continue;
-        layout = layoutOf(preset);
-        return true;
-    }
-    for (const BodyLayout& body : bodyLayouts) {
-        if (body.name != name) continue;
-        layout =
-            ActuatorLayout{body.widthMetres, body.heightMetres, static_cast<int>(body.places.size()), {}};
-        std::copy(body.places.begin(), body.places.end(), layout.places.begin());
-        return true;
-    }
+    for (const Preset& preset : presets)
+        if (preset.name == name) return layout = layoutOf(preset), true;
+    for (const BodyLayout& body : bodyLayouts)
+        if (body.name == name) {
+            layout = {body.widthMetres, body.heightMetres, static_cast<int>(body.places.size()), {}};
+            std::ranges::copy(body.places, layout.places.begin());
+            return true;
+        }
     return false;
 }
 

@@ -155,10 +155,9 @@ private:
     std::size_t used_ = 0, chunks_ = 2;
 };
 
-// Wait-free triple buffer that hands the newest value from one thread to another untorn, for telemetry.
-
-/// One writer, one reader. The reader gets the newest value; values in between may be skipped. Do not use it
-/// for anything audible: that needs a time and travels as an event.
+/// Wait-free triple buffer for telemetry; no value is torn. One writer, one reader. The reader gets the
+/// newest value; values in between may be skipped. Do not use it for anything audible: that needs a time and
+/// travels as an event.
 template <class T>
 class LatestValue {
     static_assert(std::is_trivially_copyable_v<T>, "values are copied across threads");

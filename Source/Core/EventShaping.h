@@ -16,8 +16,6 @@
 
 namespace physvib {
 
-// Frequency weighting of amplitudes towards equal perceived strength.
-
 /// Weights amplitudes, which are accelerations, towards what feels as strong at 250 Hz. The detection
 /// threshold as a displacement is flat to 40 Hz and falls by 12 dB per octave to its minimum at about 250 Hz
 /// (Verrillo 1963, large contactors at the thenar, as reported by Gescheider and Verrillo; unverified against
@@ -55,11 +53,9 @@ constexpr double detectionThresholdG(double frequencyHz) noexcept {
     return lowestG * share * share;
 }
 
-// Rendering method: which of amplitude, frequency and decay follow the collision and which are fixed (the
-// eight renderings of the thesis' study 2, 5.3).
-
-/// A{V,F}-F{V,F}-DR{V,F}: amplitude, frequency and decay are varied (from physics) or fixed. The call
-/// operator turns a collision into the event that is rendered; AV-FV-DRV changes nothing. Any thread.
+/// A{V,F}-F{V,F}-DR{V,F} (the eight renderings of the thesis' study 2, 5.3): amplitude, frequency and decay
+/// are varied (from physics) or fixed. The call operator turns a collision into the event that is rendered;
+/// AV-FV-DRV changes nothing. Any thread.
 struct RenderingMethod {
     static constexpr double fixedLevelG = 1.5; ///< acceleration in g; over the full scale, an amplitude
     static constexpr double fixedFrequencyHz = 250.0;
@@ -110,8 +106,6 @@ constexpr std::array<char, 9> nameOf(const RenderingMethod& method) noexcept {
     if (method.fixesDecay) name[8] = 'F';
     return name;
 }
-
-// Holds the summed amplitude of overlapping impacts at a fixed level, whatever their number and materials.
 
 /// The largest value of sin(2 pi f t) exp(-tau t), a little before its first quarter period. Any thread.
 inline double peakOfDecay(double frequencyHz, double decayPerSecond) noexcept {

@@ -25,8 +25,6 @@
 #include <cstddef>
 #include <cstdint>
 
-// Settings of a HapticRenderer, and its status counters.
-
 namespace physvib {
 /// True if the renderer supports that sample rate. Any thread.
 constexpr bool isSampleRate(int hz) noexcept {
@@ -194,8 +192,6 @@ private:
     std::uint64_t played_ = 0, late_ = 0, rejected_ = 0, withoutPart_ = 0;
 };
 
-// The template members of HapticRenderer, among them the render loop. For callers of HapticRenderer::render.
-
 template <class Source>
 void HapticRenderer::refill(Source& source) noexcept {
     while (!pending_.full() && source.pop(pending_.blank())) {
@@ -278,8 +274,6 @@ void HapticRenderer::render(Source& source, float* const* out, int frames) noexc
     }
     if (settings_.normalisesBlocks) normalise(out, frames);
 }
-
-// Offline rendering of all events of a source, from frame 0 on, with the renderer's latency removed.
 
 /// Renders frames 0 to `frames` of a renderer that has just been prepared, in blocks of `blockFrames`. Each
 /// block is written to out[channel] and passed to `consume(channels, n)`, the next n frames in order, until

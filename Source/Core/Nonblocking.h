@@ -17,12 +17,10 @@
 #define PHYSVIB_NONBLOCKING
 #endif
 
-// RAII guard that flushes denormal numbers to zero, so that decaying tails do not slow the processor down.
-
 namespace physvib {
-/// Sets flush-to-zero (and denormals-are-zero) for this thread and restores the earlier mode when destroyed.
-/// If the mode is already set, it does not write it: writing stalls until all arithmetic under way has
-/// finished. Render thread (R), wait-free.
+/// Sets flush-to-zero (and denormals-are-zero) for this thread, so that decaying tails cost no more than
+/// others, and restores the earlier mode when destroyed. If the mode is already set, it does not write it:
+/// writing stalls until all arithmetic under way has finished. Render thread (R), wait-free.
 class DenormalGuard {
 public:
     DenormalGuard() noexcept

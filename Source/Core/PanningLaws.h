@@ -82,9 +82,8 @@ constexpr bool panningLawNamed(std::string_view name, PanningLaw& law) noexcept 
     return false;
 }
 
-// How an event is distributed over the actuators, if not by the layout's panning law.
-
-/// The values between layout and equal are the panning laws with exponent 1: see spreadBy().
+/// How an event is distributed over the actuators, if not by the layout's panning law. The values between
+/// layout and equal are the panning laws with exponent 1: see spreadBy().
 enum class Spread : std::uint8_t {
     layout,                         ///< by the panner's law and exponent, as all impacts
     equal = 1 + panningLaws.size(), ///< energy law, scaled so that the squares always sum to one: perceived

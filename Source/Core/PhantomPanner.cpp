@@ -161,8 +161,6 @@ void PhantomPanner::scatteredGains(Rule rule, Vector p, Gains& gains) const noex
         for (std::size_t j = 0; j < count; ++j) gains[j] = factor(rule, 1.0 - weight[j] / sum);
 }
 
-// Decides how an event is panned: by which law, by which arrangement or cells, and on which part of the body.
-
 void PhantomPanner::resolveAutomatic() noexcept {
     rule_.law = PanningLaw::linear;
     if (rule_.exponent != 1.0) return;

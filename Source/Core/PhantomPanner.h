@@ -145,8 +145,6 @@ private:
     TriangleCells triangles_; // for a layout that encloses its centre
 };
 
-// Panners of a layout's parts of the body, kept between events.
-
 /// A panner and the panners of its parts. A part's panner is made when the part is first struck, which may
 /// take 10 us, and kept until the whole panner changes. When all places (`maxKept`, or as many as were
 /// prepared) are taken, it replaces the oldest.

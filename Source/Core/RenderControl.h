@@ -12,10 +12,9 @@
 
 namespace physvib {
 
-// Recordings of contacts that a renderer plays instead of modes, one per material.
-
-/// A recording is found by the number of its sound or, if it has none, by the frequency of its events. The
-/// caller keeps the samples alive as long as the renderer; they are at the renderer's rate.
+/// A recorded contact that is played instead of modes. It is found by the number of its sound or, if it has
+/// none, by the frequency of its events. The caller keeps the samples alive as long as the renderer; they are
+/// at the renderer's rate.
 struct RecordedContact {
     double frequencyHz = 0.0;       ///< of its events, if `sound` is 0
     std::span<const float> samples; ///< for an event of amplitude 1
@@ -61,9 +60,7 @@ struct PlayedEvent {
     bool isLate = false;    ///< played after its time, at once
 };
 
-// The last changes of a renderer, to explain why it is silent.
-
-/// Of all controls so far, also those that take effect later. One thread at a time.
+/// Of all controls so far, also those that take effect later; to explain silence. One thread at a time.
 struct LastChanges {
     PhantomPanner panner;           ///< of later events
     double level = 1.0;             ///< of all channels

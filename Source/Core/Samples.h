@@ -14,9 +14,8 @@ inline float peakOf(std::span<const float> samples) noexcept {
     return peak;
 }
 
-// Where a tone can be cut without a step: at its zero crossings, every half period.
-
-/// The zero crossing of sin(2 pi frequencyHz t) that is nearest to `ns`, in whole nanoseconds. Any thread.
+/// Where a tone can be cut without a step: the zero crossing of sin(2 pi frequencyHz t) that is nearest to
+/// `ns`, in whole nanoseconds. Any thread.
 inline std::int64_t nearestCrossingNs(double frequencyHz, std::int64_t ns) noexcept {
     const double crossingsPerNs = 2e-9 * frequencyHz;
     return std::llround(std::round(static_cast<double>(ns) * crossingsPerNs) / crossingsPerNs);

@@ -10,10 +10,9 @@
 
 namespace physvib {
 
-// Array whose size is fixed when a renderer is prepared: on a computer it is allocated on the heap then, on a
-// board it lies inside the object.
-
-/// At most `Most` items. resize: message thread (M), not while rendering; else: any thread that may use them.
+/// Array whose size is fixed when a renderer is prepared: on a computer it is allocated on the heap then, on
+/// a board it lies inside the object. At most `Most` items. resize: message thread (M), not while rendering;
+/// else: any thread that may use them.
 template <class T, std::size_t Most, bool isOnHeap>
 class Storage {
 public:
@@ -69,11 +68,10 @@ private:
     std::size_t count_ = 0;
 };
 
-// Fixed-capacity priority queue by time; equal times keep their order of arrival. Items that arrive in time
-// order, nearly all of them, are in a linked list; the others are in a binary heap.
-
-/// At most `Capacity` items of type T, each with an integer time. Render thread (R): constant time for items
-/// in order, else at most log2(Capacity) moves of indices. Items are not moved in memory.
+/// Fixed-capacity priority queue by time; equal times keep their order of arrival. Items that arrive in time
+/// order, nearly all of them, are in a linked list; the others are in a binary heap. At most `Capacity` items
+/// of type T, each with an integer time. Render thread (R): constant time for items in order, else at most
+/// log2(Capacity) moves of indices. Items are not moved in memory.
 template <class T, int Capacity, bool isOnHeap = false>
 class TimeOrdered {
 public:

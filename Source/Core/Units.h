@@ -11,8 +11,6 @@ inline double fromDecibels(double decibels) noexcept { return portable::pow(10.0
 /// Decibels of an amplitude of 0 or more; 0 gives minus infinity. Any thread.
 inline double toDecibels(double amplitude) noexcept { return 20.0 * portable::log10(amplitude); }
 
-// Standard gravity (1 g) in SI units.
-
-constexpr double standardGravity = 9.80665; ///< m/s^2 (CGPM 1901)
+constexpr double standardGravity = 9.80665; ///< 1 g in m/s^2 (CGPM 1901)
 
 } // namespace physvib

@@ -88,10 +88,8 @@ private:
     std::size_t count_ = 0;
 };
 
-// Player of recorded contacts instead of modes (the thesis' SV, 5.2): the event's amplitude scales them.
-
-/// Adds recordings to the output of the modes, from their exact frames on. Render thread (R) only; prepare
-/// and setContacts: message thread (M).
+/// Adds recordings of contacts (the thesis' SV, 5.2), each as strong as its event, to the output of the
+/// modes, from their exact frames on. Render thread (R) only; prepare and setContacts: message thread (M).
 class SamplePlayer {
 public:
     /// Forgets all recordings; silence. False: no memory. M, not while rendering.
@@ -163,13 +161,12 @@ private:
     FadingVoices<Voice, limits::maxSampleVoices, limits::maxEnchanters> voices_;
 };
 
-// Player of moving tones: one decaying sinusoid per event, whose channel gains change with its place.
-//
-// The place is exact in every frame. Gains are computed at both ends of each tile of the absolute frame grid
-// and interpolated linearly between them. A sample depends on its own frame alone, so block sizes do not
-// matter. Why linear, and the cost: Docs/decisions/0069-what-moves-is-a-row-of-strikes.md.
-
-/// Adds moving tones to the output of the modes. Render thread (R) only; prepare: message thread (M).
+/// Player of moving tones: one decaying sinusoid per event, whose channel gains change with its place.
+///
+/// The place is exact in every frame. Gains are computed at both ends of each tile of the absolute frame grid
+/// and interpolated linearly between them. A sample depends on its own frame alone, so block sizes do not
+/// matter. Why linear, and the cost: Docs/decisions/0069-what-moves-is-a-row-of-strikes.md. Adds moving tones
+/// to the output of the modes. Render thread (R) only; prepare: message thread (M).
 class MovingTones {
 public:
     /// Ends all tones. False: no memory. M, not while rendering.

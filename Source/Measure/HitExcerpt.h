@@ -30,8 +30,6 @@ double energyOf(std::span<const double> samples);
 /// `samples` must not be empty. Message thread (M) only.
 HitExcerpt strongestHit(const std::vector<float>& samples, double rateHz);
 
-// Selects the loudest channel of a multichannel recording.
-
 /// The channel with the highest peak; `channels` are not empty. Any thread.
 inline const std::vector<float>& loudestOf(const std::vector<std::vector<float>>& channels) {
     return *std::ranges::max_element(channels, {}, [](const auto& samples) { return peakOf(samples); });
@@ -84,9 +82,8 @@ inline std::string recordingFault(const std::vector<float>& x, double rateHz, do
     return bad == x.end() ? "" : notFinite(*bad, static_cast<std::size_t>(bad - x.begin()), rateHz);
 }
 
-// Removes what is below limits::slowestToneHz from samples for actuators: unfelt, it only warms a coil.
-
-/// What was removed, in shares of full scale; 0: too little, and the samples are unchanged.
+/// What is below limits::slowestToneHz is unfelt, and only warms a coil. What was removed, in shares of full
+/// scale; 0: too little, and the samples are unchanged.
 struct SlowPart {
     static constexpr double leastSeconds = 0.2; ///< a period of limits::slowestToneHz; shorter: no slow part
     static constexpr double leastMean = 0.01, leastRest = 0.1;

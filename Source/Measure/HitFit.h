@@ -9,9 +9,8 @@
 
 namespace physvib {
 
-// Least-squares fit of Eq. 5.1: partials that all begin at one moment, at rest.
-
-/// amplitude sin(omega (t - onset)) exp(-tau (t - onset)) from the onset on; the amplitude may be negative.
+/// A partial of Eq. 5.1 that begins with all others, at rest: amplitude sin(omega (t - onset)) exp(-tau (t -
+/// onset)) from the onset on; the amplitude may be negative.
 struct StruckPartial {
     double omega = 0.0, tau = 0.0, amplitude = 0.0;
 };

@@ -10,8 +10,6 @@
 
 namespace physvib {
 
-// Matrix products and Cholesky decomposition of the normal equations, by Eigen.
-
 namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

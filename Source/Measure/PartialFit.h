@@ -10,9 +10,8 @@
 
 namespace physvib {
 
-// Damped nonlinear least squares (Levenberg 1944, Marquardt 1963), shared by the fits to samples.
-
-/// J^T J and J^T r of a model's derivatives J and the residual r. Message thread (M) only (allocates).
+/// Damped nonlinear least squares (Levenberg 1944, Marquardt 1963), shared by the fits to samples. J^T J and
+/// J^T r of a model's derivatives J and the residual r. Message thread (M) only (allocates).
 class NormalEquations {
 public:
     static constexpr std::size_t block = 256; ///< rows per call, contiguous in memory for fast products

@@ -17,9 +17,7 @@ std::vector<double> magnitudes(std::span<const double> samples);
 /// sum x[i] x[i + lag], for lags of 0 to size - 1. M only (allocates).
 std::vector<double> autocorrelation(std::span<const double> samples);
 
-// Local maxima of a sequence, interpolated between samples.
-
-/// A peak at a fractional index.
+/// A local maximum of a sequence, interpolated between samples.
 struct Peak {
     double at, height;
 };

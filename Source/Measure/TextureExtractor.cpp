@@ -138,8 +138,6 @@ std::vector<double> smoothSlope(std::span<const double> samples, double rateHz, 
     return convolved(samples, Smoothing{std::max(reach, fewestSamples), rateHz}.slope, 1);
 }
 
-// Finds the pulses of grains above the noise, and corrects their number for those that were missed.
-
 /// Estimates from the pulses of a scrape.
 struct GrainTrain {
     double perSecond = 0.0;
@@ -270,8 +268,6 @@ std::optional<GrainTrain> grainTrain(std::span<const double> samples, double rat
     }
     return best;
 }
-
-// Counts grains that stand out, else looks for repetition.
 
 constexpr double shortestSeconds = 0.5, mostSeconds = 8.0;
 constexpr std::size_t mostSamples = 400'000; // a second of computing, 50 MB

@@ -15,12 +15,11 @@
 
 namespace physvib {
 
-// Detects which points of Box2D's contacts are new: where surfaces that were apart have met.
-
-/// A point is new from when Box2D finds it until the end of the step in which the solver has applied an
-/// impulse there. That may be a later step, for a disabled contact (a one-way platform) or a contact found in
-/// a step of length 0. A point whose id Box2D's manifold keeps is old. Contacts are identified by their
-/// addresses. World thread (M).
+/// Detects which points of Box2D's contacts are new: where surfaces that were apart have met. A point is new
+/// from when Box2D finds it until the end of the step in which the solver has applied an impulse there. That
+/// may be a later step, for a disabled contact (a one-way platform) or a contact found in a step of length 0.
+/// A point whose id Box2D's manifold keeps is old. Contacts are identified by their addresses. World thread
+/// (M).
 class FreshPoints {
 public:
     FreshPoints() { entries_.reserve(expectedContacts); }

@@ -48,9 +48,6 @@ inline b2DestructionListener* destructionListenerOf(b2World& world) noexcept {
     return world.*member(boxPrivates::Listener{});
 }
 
-// Conversions between Box2D's objects and Contacts: objects to numbers (their addresses), vectors, body
-// properties.
-
 template <class T>
 std::uint64_t idOf(const T& thing) noexcept {
     return reinterpret_cast<std::uintptr_t>(&thing);
@@ -77,8 +74,7 @@ inline Vector2 centreOf(const b2Fixture& fixture) {
     return toVector(mass.center);
 }
 
-// Body states at the beginning of a step, and how far Box2D has advanced a body when it reports a contact.
-
+/// Body states at the beginning of a step, and how far Box2D has advanced a body when it reports a contact.
 /// Contacts of the regular solver are found at the beginning of a step, those of the time-of-impact solver at
 /// the time to which the body has been moved. World thread (M).
 class BodySweeps {

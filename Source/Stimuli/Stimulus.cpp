@@ -11,14 +11,13 @@ std::int64_t nanoseconds(double seconds) noexcept { return std::llround(seconds 
 
 CollisionEvent burst(double fromSeconds, double seconds, const EnchanterPlace& at,
                      const Carrier& carrier) noexcept {
-    CollisionEvent event;
-    event.timeNs = nanoseconds(fromSeconds);
-    event.durationNs = nanoseconds(seconds);
-    event.frequencyHz = carrier.frequencyHz;
-    event.amplitude = carrier.levelG;
-    event.x = at.xMetres;
-    event.y = at.yMetres;
-    return event;
+    return {.timeNs = nanoseconds(fromSeconds),
+            .frequencyHz = carrier.frequencyHz,
+            .amplitude = carrier.levelG,
+            .x = at.xMetres,
+            .y = at.yMetres,
+            .durationNs = nanoseconds(seconds),
+            .source = {}};
 }
 
 PhantomPanner pannerOver(const EnchanterLayout& layout, PanningLaw law, double exponent) noexcept {

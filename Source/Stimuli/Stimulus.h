@@ -14,9 +14,8 @@
 
 namespace physvib {
 
-// Spatiotemporal patterns: one to three pulses, each on one actuator (thesis 3.2).
-
-/// Consecutive pulses of one duration; pulse k is on actuator enchanters[k], k < count.
+/// One to three consecutive pulses of one duration (thesis 3.2); pulse k is on actuator enchanters[k], k <
+/// count.
 struct PulsePattern {
     double pulseSeconds = 0.0;
     int count = 0;
@@ -74,8 +73,6 @@ inline std::optional<PulsePattern> parsePatternLabel(std::string_view label) noe
     return p;
 }
 
-// A place on the response field of a study, as a share of its width and height.
-
 /// A place on the response field: x to the right, y downwards, both from 0 to 1.
 struct FieldPlace {
     double x = 0.0, y = 0.0;
@@ -109,9 +106,7 @@ Stimulus phantomStimulus(const FieldPlace& place, const EnchanterLayout& layout,
 /// exactly for up to four, below -250 dB for more. Any thread.
 EnchanterLayout isolatingLayout(int count) noexcept;
 
-// Measured level of a played stimulus.
-
-/// Of the actuator with the highest level, after master level, strips and ceilings.
+/// Of a played stimulus, on the actuator with the highest level, after master level, strips and ceilings.
 struct FeltLevel {
     double peakG = 0.0, rmsG = 0.0; ///< rmsG: over the stimulus' duration
     bool operator==(const FeltLevel&) const = default;

@@ -17,22 +17,13 @@ using bench::median;
 using bench::RainedOn;
 using bench::rate;
 using bench::secondsOf;
+using bench::settingsFor;
 
 void tell(const char* name, double value) { std::printf("%s\t%.6g\n", name, value); }
 
 InstructionSet setNamed(std::string_view name) {
     const auto found = std::find(instructionSetNames.begin(), instructionSetNames.end(), name);
     return static_cast<InstructionSet>(found - instructionSetNames.begin());
-}
-
-RendererSettings settingsFor(int channels, InstructionSet set) {
-    EnchanterLayout layout{1, 1, channels, {}};
-    for (int j = 0; j < channels; ++j)
-        layout.places[static_cast<std::size_t>(j)] = {static_cast<double>(j / 2), static_cast<double>(j % 2)};
-    return {.sampleRateHz = rate,
-            .channels = channels,
-            .panner = {layout, PanningLaw::linear, 1, 1, 1},
-            .instructions = set};
 }
 
 std::vector<CollisionEvent> tones(int count, double decayPerSecond) {

@@ -12,6 +12,17 @@ namespace physvib::bench {
 
 constexpr int rate = 48000, blockFrames = 64;
 
+/// Actuators in two rows.
+inline RendererSettings settingsFor(int channels, InstructionSet set) {
+    EnchanterLayout layout{1, 1, channels, {}};
+    for (int j = 0; j < channels; ++j)
+        layout.places[static_cast<std::size_t>(j)] = {static_cast<double>(j / 2), static_cast<double>(j % 2)};
+    return {.sampleRateHz = rate,
+            .channels = channels,
+            .panner = {layout, PanningLaw::linear, 1, 1, 1},
+            .instructions = set};
+}
+
 /// A second of strikes, over and over; also the Source of HapticRenderer::render.
 class Rain {
 public:
@@ -58,14 +69,7 @@ public:
     RainedOn(int channels, int strikes, int materials, InstructionSet set = InstructionSet::best)
         : rain_(strikes, materials)
         , memory_(static_cast<std::size_t>(channels * blockFrames)) {
-        EnchanterLayout layout{1, 1, channels, {}};
-        for (int j = 0; j < channels; ++j) // two rows
-            layout.places[static_cast<std::size_t>(j)] = {static_cast<double>(j / 2),
-                                                          static_cast<double>(j % 2)};
-        renderer_->prepare({.sampleRateHz = rate,
-                            .channels = channels,
-                            .panner = {layout, PanningLaw::linear, 1, 1, 1},
-                            .instructions = set});
+        renderer_->prepare(settingsFor(channels, set));
         for (int j = 0; j < channels; ++j) at_.push_back(memory_.data() + j * blockFrames);
     }
     void block() noexcept {

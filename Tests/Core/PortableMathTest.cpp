@@ -45,34 +45,32 @@ std::vector<Function> functions() {
     const auto within = [](double low, double high) {
         return [=](Arguments& a) { return a.within(low, high); };
     };
-    const auto none = within(0.0, 1.0);
+    // of one argument
+    const auto of = [&](const char* name, double most, double (*ours)(double), Long (*theirs)(Long), auto x) {
+        return Function{name,
+                        most,
+                        [=](double at, double) { return ours(at); },
+                        [=](Long at, Long) { return theirs(at); },
+                        x,
+                        within(0.0, 1.0)};
+    };
     return {
-        {"exp", 1, [](double x, double) { return portable::exp(x); },
-         [](Long x, Long) { return std::exp(x); }, within(-700, 700), none},
-        {"exp", 1, [](double x, double) { return portable::exp(x); },
-         [](Long x, Long) { return std::exp(x); }, within(-2, 2), none},
-        {"expm1", 2, [](double x, double) { return portable::expm1(-x); },
-         [](Long x, Long) { return std::expm1(-x); }, any(1e-12, 40), none},
-        {"cosh", 2, [](double x, double) { return portable::cosh(x); },
-         [](Long x, Long) { return std::cosh(x); }, within(0, 50), none},
-        {"log", 1, [](double x, double) { return portable::log(x); },
-         [](Long x, Long) { return std::log(x); }, any(1e-300, 1e300), none},
-        {"log", 1, [](double x, double) { return portable::log(x); },
-         [](Long x, Long) { return std::log(x); }, within(0.5, 2), none},
-        {"log2", 1, [](double x, double) { return portable::log2(x); },
-         [](Long x, Long) { return std::log2(x); }, within(0.5, 2), none},
-        {"log10", 1, [](double x, double) { return portable::log10(x); },
-         [](Long x, Long) { return std::log10(x); }, any(1e-9, 1e9), none},
+        of("exp", 1, portable::exp, std::exp, within(-700, 700)),
+        of("exp", 1, portable::exp, std::exp, within(-2, 2)),
+        of(
+            "expm1", 2, [](double x) { return portable::expm1(-x); }, [](Long x) { return std::expm1(-x); },
+            any(1e-12, 40)),
+        of("cosh", 2, portable::cosh, std::cosh, within(0, 50)),
+        of("log", 1, portable::log, std::log, any(1e-300, 1e300)),
+        of("log", 1, portable::log, std::log, within(0.5, 2)),
+        of("log2", 1, portable::log2, std::log2, within(0.5, 2)),
+        of("log10", 1, portable::log10, std::log10, any(1e-9, 1e9)),
         {"pow", 1, [](double x, double y) { return portable::pow(x, y); },
          [](Long x, Long y) { return std::pow(x, y); }, any(1e-20, 1e20), within(-10, 10)},
-        {"sin", 1, [](double x, double) { return portable::sin(x); },
-         [](Long x, Long) { return std::sin(x); }, within(-10, 10), none},
-        {"sin", 1, [](double x, double) { return portable::sin(x); },
-         [](Long x, Long) { return std::sin(x); }, within(-1e6, 1e6), none},
-        {"cos", 1, [](double x, double) { return portable::cos(x); },
-         [](Long x, Long) { return std::cos(x); }, within(-10, 10), none},
-        {"tan", 2, [](double x, double) { return portable::tan(x); },
-         [](Long x, Long) { return std::tan(x); }, within(0, 1.57), none},
+        of("sin", 1, portable::sin, std::sin, within(-10, 10)),
+        of("sin", 1, portable::sin, std::sin, within(-1e6, 1e6)),
+        of("cos", 1, portable::cos, std::cos, within(-10, 10)),
+        of("tan", 2, portable::tan, std::tan, within(0, 1.57)),
         {"atan2", 2, [](double x, double y) { return portable::atan2(x, y); },
          [](Long x, Long y) { return std::atan2(x, y); }, within(-1, 1), within(-1, 1)},
         {"atan2", 2, [](double x, double y) { return portable::atan2(x, y); },

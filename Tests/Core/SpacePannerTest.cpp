@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Layouts in space and parts of a body: gains of the laws `triangles` and `distance`, and of events that are
-// bound to a part.
+// The laws of a layout's shape: `neighbours` on rows, grids and belts, `triangles` and `distance` in space;
+// and events that are bound to a part of a body.
 #include "Core/ActuatorCells.h"
 #include "Core/EnchanterLayout.h"
 #include "Core/PhantomPanner.h"
@@ -22,8 +22,20 @@ EnchanterLayout preset(std::string_view name) {
     return layout;
 }
 
+using Places = std::vector<ActuatorPlace>;
+
+ActuatorLayout layoutAt(const Places& places) {
+    ActuatorLayout layout{1.0, 1.0, static_cast<int>(places.size()), {}};
+    std::copy(places.begin(), places.end(), layout.places.begin());
+    return layout;
+}
+
 PhantomPanner pannerOf(const EnchanterLayout& layout, PanningLaw law = PanningLaw::automatic) {
     return {layout, law, 1.0, layout.extentWidthMetres, layout.extentHeightMetres};
+}
+
+PhantomPanner pannerOn(const Places& places, PanningLaw law = PanningLaw::automatic) {
+    return pannerOf(layoutAt(places), law);
 }
 
 CollisionEvent eventAt(double x, double y, double z, std::string_view part = {}) {
@@ -39,18 +51,63 @@ PhantomPanner::Gains gainsFor(const PhantomPanner& panner, const CollisionEvent&
     return gains;
 }
 
+PhantomPanner::Gains gainsAtPlace(const PhantomPanner& panner, const ActuatorPlace& at,
+                                  std::string_view part = {}) {
+    PhantomPanner::Gains gains{};
+    panner.gainsAt(eventAt(at.xMetres, at.yMetres, at.zMetres, part), gains);
+    return gains;
+}
+
 double energyOf(const PhantomPanner::Gains& gains) {
     double energy = 0.0;
     for (const double gain : gains) energy += gain * gain;
     return energy;
 }
 
+ActuatorPlace centroidOf(const ActuatorLayout& layout, const PhantomPanner::Gains& gains) {
+    ActuatorPlace felt;
+    for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j)
+        felt = sumOf(felt, layout.places[j], gains[j] * gains[j]);
+    return felt;
+}
+
+double distance(const ActuatorPlace& a, const ActuatorPlace& b) {
+    const ActuatorPlace d = vectorFrom(a, b);
+    return std::sqrt(scalarProduct(d, d));
+}
+
 EnchanterLayout octahedron() {
-    EnchanterLayout layout{1.0, 1.0, 6, {}};
-    const EnchanterPlace places[]{{0.5, 0.5, 0.5}, {0.5, 0.5, -0.5}, {0.0, 0.5, 0.0},
-                                  {1.0, 0.5, 0.0}, {0.5, 0.0, 0.0},  {0.5, 1.0, 0.0}};
-    std::copy(std::begin(places), std::end(places), layout.places.begin());
-    return layout;
+    return layoutAt({{0.5, 0.5, 0.5},
+                     {0.5, 0.5, -0.5},
+                     {0.0, 0.5, 0.0},
+                     {1.0, 0.5, 0.0},
+                     {0.5, 0.0, 0.0},
+                     {0.5, 1.0, 0.0}});
+}
+
+Places ellipse(int count, double width, double height) {
+    Places places;
+    for (int k = 0; k < count; ++k) {
+        const double angle = 2 * std::numbers::pi * (k * 3 % count) / count; // not in order
+        places.push_back({0.5 + 0.5 * width * std::cos(angle), 0.5 + 0.5 * height * std::sin(angle)});
+    }
+    return places;
+}
+
+const Places unevenRow{{0.3, 0.2}, {0.9, 0.2}, {0.1, 0.2}, {0.45, 0.2}};
+const Places slantedRow{{0.1, 0.1}, {0.3, 0.3}, {0.5, 0.5}, {0.9, 0.9}};
+const Places unevenGrid{{0.0, 0.0}, {0.2, 0.0}, {1.0, 0.0}, {0.0, 0.3}, {0.2, 0.3}, {1.0, 0.3}};
+
+std::vector<EnchanterLayout> flatShapes() {
+    return {layoutAt(unevenRow),
+            layoutAt(slantedRow),
+            layoutAt(unevenGrid),
+            layoutAt(ellipse(8, 1.0, 1.0)),
+            layoutAt(ellipse(7, 1.0, 0.6)),
+            layoutAt(ellipse(64, 0.9, 0.9)),
+            test::gridLayout(64, 1),
+            test::gridLayout(1, 3),
+            test::gridLayout(4, 2)};
 }
 
 TEST(SpacePanner, TheShapeChoosesTheLaw) {
@@ -70,42 +127,41 @@ TEST(SpacePanner, TheShapeChoosesTheLaw) {
 }
 
 TEST(SpacePanner, AnActuatorsOwnPlaceIsThatOneAlone) {
+    std::vector<PhantomPanner> panners;
+    for (const auto& layout : flatShapes()) panners.push_back(pannerOf(layout));
     for (const char* name : {"glove5", "sleeve8", "vest16"})
-        for (const PanningLaw law : {PanningLaw::distance, PanningLaw::triangles, PanningLaw::automatic}) {
-            const auto layout = preset(name);
-            const PhantomPanner panner = pannerOf(layout, law);
-            for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j) {
-                const auto& at = layout.places[j];
-                const auto gains = gainsFor(panner, eventAt(at.xMetres, at.yMetres, at.zMetres));
-                for (std::size_t k = 0; k < static_cast<std::size_t>(layout.count); ++k)
-                    EXPECT_NEAR(gains[k], j == k ? 1.0 : 0.0, 1e-7) << name << ' ' << j << ' ' << k;
-            }
+        for (const PanningLaw law : {PanningLaw::distance, PanningLaw::triangles, PanningLaw::automatic})
+            panners.push_back(pannerOf(preset(name), law));
+    for (const PhantomPanner& panner : panners)
+        for (std::size_t j = 0; j < static_cast<std::size_t>(panner.channels()); ++j) {
+            const auto gains = gainsAtPlace(panner, panner.layout().places[j]);
+            for (std::size_t k = 0; k < static_cast<std::size_t>(panner.channels()); ++k)
+                ASSERT_NEAR(gains[k], j == k ? 1.0 : 0.0, 1e-7) << panner.channels() << ' ' << j << ' ' << k;
         }
 }
 
-TEST(SpacePanner, EnergyIsConstantAndTheCentroidIsThePlaceWithinTheSurface) {
+TEST(SpacePanner, EnergyIsConstantAndTheCentroidIsThePlaceWithinTheShape) {
     test::Random random{7};
-    for (const auto& layout : {octahedron(), preset("sleeve8"), preset("vest16")})
-        for (int i = 0; i < 2000; ++i) {
-            EnchanterPlace place; // the mean of four actuators' places: within, if the surface is convex
-            for (int k = 0; k < 4; ++k) {
-                const auto& p = layout.places[static_cast<std::size_t>(random.uniform(0, layout.count))];
-                place.xMetres += 0.25 * p.xMetres, place.yMetres += 0.25 * p.yMetres;
-                place.zMetres += 0.25 * p.zMetres;
+    const auto expectWithin = [&](const EnchanterLayout& layout, PanningLaw law, double tolerance) {
+        const PhantomPanner panner = pannerOf(layout);
+        ASSERT_EQ(panner.law(), law) << layout.count;
+        for (int i = 0; i < 1000; ++i) { // between three of the actuators, so within
+            ActuatorPlace place;
+            double left = 1.0;
+            for (int k = 0; k < 3; ++k) {
+                const double share = k == 2 ? left : random.uniform(0, left);
+                left -= share;
+                place = sumOf(place, layout.places[static_cast<std::size_t>(random.uniform(0, layout.count))],
+                              share);
             }
-            const auto gains =
-                gainsFor(pannerOf(layout), eventAt(place.xMetres, place.yMetres, place.zMetres));
-            EnchanterPlace felt;
-            for (std::size_t j = 0; j < static_cast<std::size_t>(layout.count); ++j) {
-                felt.xMetres += gains[j] * gains[j] * layout.places[j].xMetres;
-                felt.yMetres += gains[j] * gains[j] * layout.places[j].yMetres;
-                felt.zMetres += gains[j] * gains[j] * layout.places[j].zMetres;
-            }
-            ASSERT_NEAR(energyOf(gains), 1.0, 1e-12);
-            ASSERT_NEAR(felt.xMetres, place.xMetres, 1e-12);
-            ASSERT_NEAR(felt.yMetres, place.yMetres, 1e-12);
-            ASSERT_NEAR(felt.zMetres, place.zMetres, 1e-12);
+            const auto gains = gainsAtPlace(panner, place);
+            ASSERT_NEAR(distance(centroidOf(layout, gains), place), 0.0, tolerance) << layout.count;
+            ASSERT_NEAR(energyOf(gains), 1.0, tolerance) << layout.count;
         }
+    };
+    for (const auto& layout : {octahedron(), preset("sleeve8"), preset("vest16")})
+        expectWithin(layout, PanningLaw::triangles, 2e-12);
+    for (const auto& layout : flatShapes()) expectWithin(layout, PanningLaw::neighbours, 1e-9);
 }
 
 TEST(SpacePanner, GainsAreContinuousInsideAndOutside) {
@@ -206,28 +262,104 @@ TEST(SpacePanner, DepthIsScaledAsWidthIs) {
     EXPECT_NEAR(gains[6], 1.0, 1e-7);
 }
 
+// Energies, since a root is steep at zero. Their slope is at most the reciprocal of the narrowest part of a
+// cell, which is 1/63 in the longest row.
+TEST(NeighbourCells, NoGainJumpsOnAnyWay) {
+    for (const auto& layout : flatShapes()) {
+        const PhantomPanner panner = pannerOf(layout);
+        for (int way = 0; way < 8; ++way) {
+            PhantomPanner::Gains before{}, now{};
+            constexpr int steps = 3'000;
+            for (int i = 0; i <= steps; ++i) {
+                const double x = -0.2 + 1.4 * i / steps, y = 0.5 + std::sin(way) * (x - 0.5 + 0.01 * way);
+                panner.gainsAt(x, y, now);
+                for (std::size_t j = 0; i > 0 && j < static_cast<std::size_t>(layout.count); ++j)
+                    ASSERT_NEAR(now[j] * now[j], before[j] * before[j], 0.05) << layout.count << ' ' << x;
+                before = now;
+            }
+        }
+    }
+}
+
+TEST(NeighbourCells, APlaceOutsideIsMovedToTheEdge) {
+    const auto moved = [](const Places& shape, const ActuatorPlace& from) {
+        const auto gains = gainsAtPlace(pannerOn(shape), from);
+        EXPECT_NEAR(energyOf(gains), 1.0, 1e-12);
+        return centroidOf(layoutAt(shape), gains);
+    };
+    EXPECT_NEAR(moved(unevenRow, {-3.0, 5.0}).xMetres, 0.1, 1e-12);
+    EXPECT_NEAR(distance(moved(unevenGrid, {7.0, 7.0}), {1.0, 0.3}), 0.0, 1e-12);
+    const auto belt = moved(ellipse(8, 1.0, 1.0), {0.5 + 3.0 * std::cos(0.3), 0.5 + 3.0 * std::sin(0.3)});
+    EXPECT_NEAR(std::atan2(belt.yMetres - 0.5, belt.xMetres - 0.5), 0.3, 1e-9);
+}
+
+void expectSameGains(const PhantomPanner& a, const PhantomPanner& b, const std::string& name) {
+    test::Random random{3};
+    for (int i = 0; i < 200; ++i) {
+        CollisionEvent event;
+        event.x = random.uniform(-0.1, 1.1) * a.fieldWidthMetres();
+        event.y = random.uniform(-0.1, 1.1) * a.fieldHeightMetres();
+        event.source.kind = i % 2 == 0 ? ContactKind::hit : ContactKind::roll;
+        PhantomPanner::Gains one{}, other{};
+        a.gainsAt(event, one);
+        b.gainsAt(event, other);
+        ASSERT_TRUE(one == other) << name;
+    }
+}
+
+// Five with one in the middle, two at one place, and a triangle have no cells.
+TEST(NeighbourCells, ElsewhereTheDefaultIsWhatItWasToTheBit) {
+    std::vector<std::pair<std::string, EnchanterLayout>> layouts{
+        {"two of three quarters", layoutAt({{0.1, 0.5}, {0.8, 0.5}})},
+        {"a rectangle with a margin", layoutAt({{0.1, 0.1}, {0.8, 0.1}, {0.1, 0.9}, {0.8, 0.9}})},
+        {"two at one place", layoutAt({{0.1, 0.5}, {0.1, 0.5}, {0.8, 0.5}})},
+        {"all at one place", layoutAt({{0.1, 0.5}, {0.1, 0.5}, {0.1, 0.5}})},
+        {"a middle", layoutAt({{0, 0}, {1, 0}, {0, 1}, {1, 1}, {0.5, 0.5}})}};
+    for (const auto name : layoutPresetNames)
+        if (name.starts_with("phone") || name.starts_with("ring")) layouts.emplace_back(name, preset(name));
+    for (const auto& [name, layout] : layouts) {
+        PhantomPanner before = pannerOf(layout, PanningLaw::linear);
+        before.setGrains(grainSpread);
+        const PhantomPanner now = pannerOf(layout);
+        EXPECT_EQ(now.law(), PanningLaw::linear) << name;
+        EXPECT_EQ(now.grains(), grainSpread) << name;
+        EXPECT_EQ(now.travelSpread(), Spread::equal) << name;
+        expectSameGains(now, before, name);
+    }
+}
+
+TEST(NeighbourCells, AnExponentIsThatOfTheLinearLaw) {
+    const EnchanterLayout row = test::gridLayout(4, 1);
+    const PhantomPanner now{row, PanningLaw::automatic, 2.0, 1.0, 1.0},
+        before{row, PanningLaw::linear, 2.0, 1.0, 1.0};
+    EXPECT_EQ(now.grains(), Spread::layout);
+    expectSameGains(now, before, "row");
+}
+
+TEST(NeighbourCells, ThePlacesOfAFileMayBeRounded) {
+    Places belt = ellipse(16, 1.0, 1.0), grid = unevenGrid;
+    for (auto& p : belt) p = {std::round(p.xMetres * 1000) / 1000, std::round(p.yMetres * 1000) / 1000};
+    grid[4].xMetres += 0.0015;
+    EXPECT_EQ(pannerOn(belt).law(), PanningLaw::neighbours);
+    EXPECT_EQ(pannerOn(grid).law(), PanningLaw::neighbours);
+    grid[4].yMetres -= 0.1;
+    EXPECT_EQ(pannerOn(grid).law(), PanningLaw::linear);
+}
+
+// The law can be named for any layout, and a message or an event can name it too.
+TEST(NeighbourCells, TheLawIsEnergyWhereThereAreNoCells) {
+    const EnchanterLayout phone3 = preset("phone3");
+    expectSameGains(pannerOf(phone3, PanningLaw::neighbours), pannerOf(phone3, PanningLaw::energy), "phone3");
+    const PhantomPanner row = pannerOf(test::gridLayout(4, 1), PanningLaw::linear);
+    PhantomPanner::Gains named{}, chosen{}, law{};
+    row.gainsAt(0.4, 0.5, spreadBy(PanningLaw::neighbours), named);
+    row.gainsAt(0.4, 0.5, spreadBy(PanningLaw::automatic), chosen);
+    pannerOf(row.layout()).gainsAt(0.4, 0.5, law);
+    EXPECT_TRUE(named == law && chosen == law);
+    EXPECT_EQ(std::count(law.begin(), law.begin() + 4, 0.0), 2);
+}
+
 // Rows, grids and belts in any plane or on any line of space, and parts of the body that have one.
-
-using Places = std::vector<ActuatorPlace>;
-
-ActuatorLayout layoutAt(const Places& places) {
-    ActuatorLayout layout{1.0, 1.0, static_cast<int>(places.size()), {}};
-    std::copy(places.begin(), places.end(), layout.places.begin());
-    return layout;
-}
-
-PhantomPanner pannerOn(const Places& places, PanningLaw law = PanningLaw::automatic) {
-    return {layoutAt(places), law, 1.0, 1.0, 1.0};
-}
-
-PhantomPanner::Gains gainsAtPlace(const PhantomPanner& panner, const ActuatorPlace& at, PartNumber part = 0) {
-    CollisionEvent event;
-    event.x = at.xMetres, event.y = at.yMetres, event.z = at.zMetres;
-    event.source.part = part;
-    PhantomPanner::Gains gains{};
-    panner.gainsAt(event, gains);
-    return gains;
-}
 
 /// A plane's origin and axes.
 struct Frame {
@@ -277,17 +409,6 @@ std::vector<Places> shapes() {
     return {row(2), row(3), row(8), row(16), grid(2, 2), grid(4, 2), grid(3, 3), belt(4), belt(8)};
 }
 
-ActuatorPlace centroidOf(const Places& places, const PhantomPanner::Gains& gains) {
-    ActuatorPlace felt;
-    for (std::size_t j = 0; j < places.size(); ++j) felt = sumOf(felt, places[j], gains[j] * gains[j]);
-    return felt;
-}
-
-double distance(const ActuatorPlace& a, const ActuatorPlace& b) {
-    const ActuatorPlace d = vectorFrom(a, b);
-    return std::sqrt(scalarProduct(d, d));
-}
-
 TEST(TiltedCells, ThePlaceIsTheCentroidInAnyPlaneAndWhatIsBesideIsMovedOntoIt) {
     test::Random random{3};
     for (int turn = 0; turn < 30; ++turn)
@@ -304,10 +425,9 @@ TEST(TiltedCells, ThePlaceIsTheCentroidInAnyPlaneAndWhatIsBesideIsMovedOntoIt) {
                 const double share = random.uniform(0, 1);
                 const ActuatorPlace p = sumOf(sumOf({}, any(), share), any(), 1.0 - share);
                 const auto gains = gainsAtPlace(panner, frame.at(p, random.uniform(-1, 1)));
-                EXPECT_NEAR(distance(centroidOf(places, gains), frame.at(p)), 0.0, 1e-9) << flat.size();
-                double energy = 0.0;
-                for (const double gain : gains) energy += gain * gain;
-                EXPECT_NEAR(energy, 1.0, 1e-9);
+                EXPECT_NEAR(distance(centroidOf(panner.layout(), gains), frame.at(p)), 0.0, 1e-9)
+                    << flat.size();
+                EXPECT_NEAR(energyOf(gains), 1.0, 1e-9);
             }
             for (std::size_t j = 0; j < places.size(); ++j)
                 EXPECT_NEAR(gainsAtPlace(panner, places[j])[j], 1.0, 1e-6) << flat.size() << ' ' << j;
@@ -342,8 +462,7 @@ TEST(TiltedCells, WhatIsInNoPlaneGoesByDistanceAndNamesCanAskForCells) {
 
 /// Tips of a hand, which are in no plane, and two more on the index, in a row with its tip.
 Places hand() {
-    ActuatorLayout tips;
-    EXPECT_TRUE(layoutPreset("glove5", tips));
+    const ActuatorLayout tips = preset("glove5");
     Places places{tips.places.begin(), tips.places.begin() + tips.count};
     for (int j = 1; j < 3; ++j)
         places.push_back({0.06 - 0.01 * j, 0.085 - 0.03 * j, -0.01 - 0.005 * j, partNamed("index")});
@@ -357,7 +476,7 @@ TEST(TiltedCells, APartChoosesTheLawOfItsOwnShape) {
     EXPECT_EQ(panner.requestedLaw(), PanningLaw::automatic);
     EXPECT_EQ(panner.pannerOf(partNamed("index")).law(), PanningLaw::neighbours);
     const ActuatorPlace between = sumOf(sumOf({}, places[1], 0.7), places[5], 0.3);
-    const auto gains = gainsAtPlace(panner, between, partNamed("index"));
+    const auto gains = gainsAtPlace(panner, between, "index");
     EXPECT_NEAR(gains[1] * gains[1], 0.7, 1e-9);
     EXPECT_NEAR(gains[5] * gains[5], 0.3, 1e-9);
     for (const std::size_t other : {0U, 2U, 3U, 4U, 6U}) EXPECT_EQ(gains[other], 0.0);

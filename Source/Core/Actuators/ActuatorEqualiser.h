@@ -16,9 +16,7 @@
 
 namespace physvib {
 
-// Second-order filter section (biquad), and the mapping of analogue roots to its coefficients.
-
-/// 1 + first z^-1 + second z^-2.
+/// Half of a second-order filter section (biquad): 1 + first z^-1 + second z^-2.
 struct RootPair {
     double first = 0.0, second = 0.0;
 
@@ -77,12 +75,10 @@ private:
     double past_ = 0.0, older_ = 0.0;
 };
 
-// Linear model of a resonant actuator: a mass on a spring, driven by a force; the output is the acceleration
-// of its case.
-
-/// H(s) = (1/Q) s^2 / (s^2 + (w0/Q) s + w0^2), w0 = 2 pi resonanceHz: acceleration per drive, 1 at the
-/// resonance. Above it H falls to the plateau 1/Q, below it by 12 dB per octave. Valid for LRA, voice coil
-/// and loaded piezo bender.
+/// Linear model of a resonant actuator: a mass on a spring, driven by a force. The output is its case's
+/// acceleration. H(s) = (1/Q) s^2 / (s^2 + (w0/Q) s + w0^2), w0 = 2 pi resonanceHz: acceleration per drive, 1
+/// at the resonance. Above it H falls to the plateau 1/Q, below it by 12 dB per octave. Valid for LRA, voice
+/// coil and loaded piezo bender.
 struct Resonator {
     double resonanceHz = 0.0; ///< > 0; 0: not known
     double q = 0.0;           ///< > 0; 0: not known

@@ -14,9 +14,8 @@
 
 namespace physvib {
 
-// Delay line of one channel. Its delay may change in play: it cross-fades from the old to the new place.
-
-/// Render thread (R) only; prepare: message thread (M).
+/// Delay line of one channel; a change of delay in play is cross-faded. Render thread (R) only; prepare:
+/// message thread (M).
 template <int Capacity>
 class ChannelDelay {
 public:

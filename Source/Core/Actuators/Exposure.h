@@ -52,9 +52,7 @@ private:
     std::array<Biquad, 3> sections_;
 };
 
-// Meter of the samples that were sent to the actuators: weighted sums for vibration exposure.
-
-/// Per channel; 1 = full scale.
+/// Weighted sums of the samples that were sent, for vibration exposure. Per channel; 1 = full scale.
 struct ExposureSums {
     using Channels = std::array<double, static_cast<std::size_t>(limits::maxEnchanters)>;
     Channels weighted{}; ///< integral of squared weighted samples over time, in s, since the meter was made

@@ -156,18 +156,16 @@ private:
     bool acts_ = false, hasSums_ = false;
 };
 
-// Linked look-ahead limiter: one gain for all channels, so that a phantom stays in place while no channel
-// exceeds its ceiling.
-//
-// Window of W frames (limits::limiterLookAheadSeconds): the lowest gain that any of the last W frames needs
-// (sliding minimum), released linearly, averaged over W frames, applied to the input of W - 1 frames ago.
-// Each averaged value is at most what the delayed frame needs, so the ceiling holds. The average limits the
-// attack's slope to 1/W per frame, the release to 1/(limits::limiterReleaseSeconds * rate). Gains are
-// integers (2^30 = 1): their running sum neither drifts nor differs between machines, and the gain returns to
-// exactly 1. A change of ceiling is a ramp of at most limits::channelRampSeconds: each frame is limited by
-// the ceiling of its own time.
-
-/// R only, but for prepare: M.
+/// Linked look-ahead limiter: one gain for all channels, so that a phantom stays in place while no channel
+/// exceeds its ceiling.
+///
+/// Window of W frames (limits::limiterLookAheadSeconds): the lowest gain that any of the last W frames needs
+/// (sliding minimum), released linearly, averaged over W frames, applied to the input of W - 1 frames ago.
+/// Each averaged value is at most what the delayed frame needs, so the ceiling holds. The average limits the
+/// attack's slope to 1/W per frame, the release to 1/(limits::limiterReleaseSeconds * rate). Gains are
+/// integers (2^30 = 1): their running sum neither drifts nor differs between machines, and the gain returns
+/// to exactly 1. A change of ceiling is a ramp of at most limits::channelRampSeconds: each frame is limited
+/// by the ceiling of its own time. R only, but for prepare: M.
 class LinkedLimiter {
 public:
     /// Resets everything; ceilings 1. If disabled, it only delays and replaces invalid samples. The bits do

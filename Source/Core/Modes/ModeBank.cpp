@@ -43,7 +43,7 @@ bool ModeBank::takeMemory(InstructionSet set, int gates) noexcept {
 
 void ModeBank::moveTo(std::int64_t fromFrame, int sampleRateHz, std::int64_t toFrame) noexcept {
     enterTile(fromFrame);
-    finishStrikes();
+    tiles_.finishStrikes();
     const double ratio = sampleRateHz / rate_;
     const auto moved = [=](std::int64_t frame) { // the frame at the same distance in time from `toFrame`
         return frame == Strike::never
@@ -106,15 +106,15 @@ int ModeBank::slotFor(const Strike& strike) noexcept {
     auto& recent = recent_[(hash >> 24) % recent_.size()];
     if (mode(recent).isOf(strike)) return recent;
     const Mode wanted = modeFor(strike);
-    int slot = find(wanted);
+    int slot = index_.find(wanted.hash(), [&](int at) { return mode(at).matches(wanted); });
     if (slot < 0) {
         if (activeCount_ - fadingCount_ == modes_) {
-            finishStrikes();
+            tiles_.finishStrikes();
             fade(quietest(false), strike.onset.frame);
             ++stolen_;
         }
         if (freeCount_ == 0) {
-            finishStrikes();
+            tiles_.finishStrikes();
             release(quietest(true));
         }
         slot = create(wanted);
@@ -139,9 +139,6 @@ void ModeBank::add(int slot, const Strike& strike, const double* gains) noexcept
     refreshTile(slot);
 }
 
-// Strikes of one tile are collected; this processes them before amplitudes are read.
-void ModeBank::finishStrikes() noexcept { tiles_.finishStrikes(); }
-
 ModeBank::Mode ModeBank::modeFor(const Strike& strike) const noexcept {
     Mode m;
     m.frequencyHz = strike.frequencyHz;
@@ -156,10 +153,6 @@ void ModeBank::setIncrements(Mode& m) const noexcept {
     m.phaseIncrement = phaseIncrementOf(m.frequencyHz, rate_);
     m.decayIncrement = decayIncrementOf(m.decayPerSecond, rate_);
     m.lifeFrames = lifeFramesOf(m.decayIncrement);
-}
-
-int ModeBank::find(const Mode& wanted) const noexcept {
-    return index_.find(wanted.hash(), [&](int slot) { return mode(slot).matches(wanted); });
 }
 
 int ModeBank::create(const Mode& m) noexcept {
@@ -211,13 +204,13 @@ void ModeBank::fade(int slot, std::int64_t frame, double perSecond) noexcept {
     if (tiles_.isOn()) tiles_.remove(slot);
     shape(slot);
     refreshTile(slot);
-    redoTile(slot, frame);
+    tiles_.redoFrom(m.isGated, static_cast<int>(frame - tileStart_));
     ++fadingCount_;
 }
 
 void ModeBank::fadeAll(std::int64_t frame, double perSecond) noexcept {
     enterTile(frame);
-    finishStrikes();
+    tiles_.finishStrikes();
     for (int i = 0; i < activeCount_; ++i)
         if (const int slot = active_[static_cast<std::size_t>(i)]; !mode(slot).isFading)
             fade(slot, frame, perSecond);
@@ -302,15 +295,10 @@ void ModeBank::refreshTile(int slot) noexcept {
     }
 }
 
-// To be called if a mode was changed other than by a strike: the rest of its tile is rendered again.
-void ModeBank::redoTile(int slot, std::int64_t frame) noexcept {
-    tiles_.redoFrom(mode(slot).isGated, static_cast<int>(frame - tileStart_));
-}
-
 void ModeBank::enterTile(std::int64_t frame) noexcept {
     const std::int64_t start = frame - frame % tile;
     if (start == tileStart_) return;
-    finishStrikes();
+    tiles_.finishStrikes();
     const bool isNext = start == tileStart_ + tile;
     tileStart_ = start;
     if (start >= nextEnd_) retireModes();
@@ -358,7 +346,7 @@ void ModeBank::closeNextGate() noexcept {
     const Gate gate = gates_.next();
     const std::int64_t closeFrame = gates_.nextTime();
     enterTile(closeFrame);
-    finishStrikes();
+    tiles_.finishStrikes();
     gates_.pop();
     freeGates_[static_cast<std::size_t>(freeGateCount_++)] = gate.entry;
     Mode& m = mode(gate.slot);
@@ -375,7 +363,7 @@ void ModeBank::closeNextGate() noexcept {
     }
     if (m.openGates == 0) nextEnd_ = m.endFrame = tileStart_;
     refreshTile(gate.slot);
-    redoTile(gate.slot, closeFrame);
+    tiles_.redoFrom(m.isGated, static_cast<int>(closeFrame - tileStart_));
 }
 
 Turn ModeBank::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase) noexcept {
@@ -393,7 +381,7 @@ Turn ModeBank::onsetTurn(const Mode& m, FramePosition onset, std::uint64_t phase
 
 bool ModeBank::render(float* const* out, std::int64_t first, int frames) noexcept {
     enterTile(first);
-    finishStrikes();
+    tiles_.finishStrikes();
     const int from = static_cast<int>(first - tileStart_);
     if (tiles_.isOn()) return tiles_.render(out, from, frames);
     const ModeTable table{active_.data(),         activeCount_,      channels_,

@@ -22,9 +22,6 @@
 
 namespace physvib {
 
-// Hash table from a mode's increments to its slot, with linear probing, so that a strike need not search all
-// modes.
-
 /// Hash of a mode's increments; its top bits are well mixed (Fibonacci hashing, Knuth vol. 3, 6.4).
 inline std::uint64_t modeHash(std::uint64_t phaseIncrement, std::int64_t decayIncrement,
                               bool isGated) noexcept {
@@ -33,7 +30,8 @@ inline std::uint64_t modeHash(std::uint64_t phaseIncrement, std::int64_t decayIn
     return (mixed ^ mixed >> 31) * 0x9e3779b97f4a7c15;
 }
 
-/// At most `Slots` slots. The caller keeps the keys: it supplies the hash, and compares the key of a slot.
+/// Hash table from increments to a mode's slot, of at most `Slots`, with linear probing. The caller keeps the
+/// keys: it supplies the hash, and compares the key of a slot.
 template <int Slots>
 class ModeIndex {
 public:
@@ -193,10 +191,8 @@ private:
     Mode modeFor(const Strike& strike) const noexcept;
     void setIncrements(Mode& mode) const noexcept;
     int slotFor(const Strike& strike) noexcept;
-    int find(const Mode& wanted) const noexcept;
     int create(const Mode& mode) noexcept;
     void add(int slot, const Strike& strike, const double* gains) noexcept;
-    void finishStrikes() noexcept;
     void release(int slot) noexcept;
     void recycle(int slot) noexcept;
     void fade(int slot, std::int64_t frame, double perSecond = limits::stealFadePerSecond) noexcept;
@@ -208,7 +204,6 @@ private:
     void renewCarrier(int slot) noexcept;
     void retireModes() noexcept;
     void shape(int slot) noexcept;
-    void redoTile(int slot, std::int64_t frame) noexcept;
     void enterTile(std::int64_t frame) noexcept;
     bool openGate(int slot, const Strike& strike, const double* gains) noexcept;
     Complex<double> carrier(const Mode& mode) const noexcept;

@@ -157,11 +157,10 @@ private:
     std::array<Room<std::int32_t, slots>, rankCount> rowSlots_;
 };
 
-// Orthonormal polynomials on the 64 frames of a tile (discrete Chebyshev, or Gram, polynomials). Decaying
-// sinusoids of low frequency are well approximated by a few of them. Nested: a mode of rank 8 uses the first
-// 8 of 32.
-
-/// Polynomial k is even about the middle of the tile for even k, odd for odd k; so half of each is stored.
+/// Orthonormal polynomials on the 64 frames of a tile (discrete Chebyshev, or Gram, polynomials). Decaying
+/// sinusoids of low frequency are well approximated by a few of them. Nested: a mode of rank 8 uses the first
+/// 8 of 32. Polynomial k is even about the middle of the tile for even k, odd for odd k; so half of each is
+/// stored.
 class LowRankBasis {
 public:
     LowRankBasis() noexcept;

@@ -17,10 +17,8 @@
 
 namespace physvib {
 
-// Model of a game controller's two rumble motors, and the parameters by which events become motor commands.
-// Docs/pads.md names the sources of the figures.
-
-/// One motor: a command from 0 to 1 leads, with delay, to a strength from 0 to 1.
+/// A motor of a game controller (Docs/pads.md names the sources of the figures): a command from 0 to 1 leads,
+/// with delay, to a strength from 0 to 1.
 struct PadMotor {
     double threshold = 0.3;    ///< command below which the motor does not turn
     double half = 0.5;         ///< command that gives half of the strength
