@@ -131,6 +131,15 @@ auto in(physvib_live name, Call call) noexcept {
 inline bool isLevel(double db) noexcept { return db >= -90.0 && db <= 0.0; } // not NaN
 inline float gainOf(double db) noexcept { return static_cast<float>(fromDecibels(db)); }
 
+/// Law, field and layout of a panner. Returns PHYSVIB_OK, or sets the error.
+inline int writePanner(const PhantomPanner& panner, physvib_renderer_settings& to) noexcept {
+    to.law = static_cast<int>(panner.requestedLaw()); // which is the law, unless parts choose
+    to.exponent = panner.exponent();
+    to.field_width_m = panner.fieldWidthMetres();
+    to.field_height_m = panner.fieldHeightMetres();
+    return writeLayout(panner.layout(), to.layout);
+}
+
 /// As takeRenderer; null: the defaults.
 inline bool takeRendererOrUsual(const physvib_renderer_settings* from, RendererSettings& to) noexcept {
     physvib_renderer_settings usual;
