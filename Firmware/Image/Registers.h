@@ -93,4 +93,12 @@ inline void startSampleTimer(const Clock& clock) noexcept {
     reg(tim6::cr1) = 1;
 }
 
+// Facts from the start-up code.
+
+/// Number of restarts by the hardware watchdog since power-on. Call once.
+std::uint8_t countWatchdogReset() noexcept;
+
+/// Bytes of the stack that have never been used.
+std::uint16_t stackFree() noexcept;
+
 } // namespace physvib::board

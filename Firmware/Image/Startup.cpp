@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Start-up from reset to main: memory, floating-point unit, stack paint, interrupt vectors. Every processor
 // fault silences the outputs, and the hardware watchdog then restarts the board.
-#include "Startup.h"
 #include "Outputs.h"
 #include "Registers.h"
 #include <array>

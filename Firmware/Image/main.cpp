@@ -7,7 +7,6 @@
 #include "Link.h"
 #include "Outputs.h"
 #include "Registers.h"
-#include "Startup.h"
 #include <new>
 
 namespace physvib::board {

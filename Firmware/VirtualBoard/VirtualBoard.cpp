@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <unicorn/unicorn.h>
+#include <utility>
 
 namespace physvib::virtualboard {
 
@@ -193,17 +194,6 @@ void VirtualBoard::reset(bool byWatchdog) {
     setReg(UC_ARM_REG_PC, start[1]);
 }
 
-void VirtualBoard::send(std::span<const std::uint8_t> bytes, double at) {
-    const auto from = std::max(cycle_, static_cast<std::uint64_t>(at * io_.hz()));
-    for (const std::uint8_t byte : bytes) io_.lineIn(byte, from + io_.cyclesPerByte());
-}
-
-std::vector<LineByte> VirtualBoard::received() {
-    std::vector<LineByte> bytes(io_.lineOut.begin(), io_.lineOut.end());
-    io_.lineOut.clear();
-    return bytes;
-}
-
 std::vector<std::uint8_t> VirtualBoard::memory(std::uint32_t address, std::size_t size) const {
     std::vector<std::uint8_t> bytes(size);
     demand(uc_mem_read(engine_, address, bytes.data(), size), "read");
@@ -218,11 +208,6 @@ void VirtualBoard::poke(std::uint32_t address, std::span<const std::uint8_t> byt
 
 // Time:
 
-void VirtualBoard::commit() {
-    cycle_ += pendingCycles_;
-    pendingCycles_ = 0;
-}
-
 const BlockCost& VirtualBoard::blockAt(std::uint32_t address, std::uint32_t size) {
     const std::uint64_t key = static_cast<std::uint64_t>(address) << 32 | size;
     const auto found = blocks_.find(key);
@@ -233,17 +218,16 @@ const BlockCost& VirtualBoard::blockAt(std::uint32_t address, std::uint32_t size
 }
 
 void VirtualBoard::enterBlock(std::uint32_t address, std::uint32_t size) {
-    commit();
+    cycle_ += std::exchange(pendingCycles_, 0);
     if (cycle_ >= deadline_ || io_.pendingInterrupt(currentPriority()) >= 0) {
         stopped_ = true;
         uc_emu_stop(engine_);
         return;
     }
     current_ = &blockAt(address, size);
-    const std::uint64_t cost = current_->cycles + (address != expectedAddress_ ? current_->takenCycles : 0);
+    pendingCycles_ = current_->cycles + (address != expectedAddress_ ? current_->takenCycles : 0);
     expectedAddress_ = address + size;
     storesInBlock_ = 0;
-    pendingCycles_ = cost;
 }
 
 std::uint64_t VirtualBoard::storeTime() const {
@@ -281,8 +265,8 @@ void VirtualBoard::onWrite(uc_engine*, std::uint64_t offset, unsigned size, std:
     const auto& r = *static_cast<Region*>(region);
     r.board->io_.write(r.base + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(value), size,
                        r.board->storeTime());
-    const std::uint64_t next = r.board->io_.nextEvent(); // the write may have caused an earlier event
-    r.board->deadline_ = std::min(r.board->deadline_, next);
+    // the write may have caused an earlier event
+    r.board->deadline_ = std::min(r.board->deadline_, r.board->io_.nextEvent());
 }
 
 // Exceptions (ARMv7-M manual, B1.5):
@@ -320,33 +304,26 @@ void VirtualBoard::leaveException() {
     expectedAddress_ = 0;
 }
 
-void VirtualBoard::takeInterrupt() {
-    const int number = io_.pendingInterrupt(currentPriority());
-    if (number >= 0) enterException(firstExternal + number, number, io_.priority(number));
-}
-
-void VirtualBoard::fault() {
-    ++faults_;
-    if (faults_ > 100) throw std::runtime_error("virtual board: fault upon fault");
-    enterException(hardFault, -hardFault, faultPriority);
-}
-
 // Running:
 
 void VirtualBoard::runSlice(std::uint64_t end) {
     io_.advance(cycle_);
     if (io_.watchdogExpired(cycle_)) reset(true);
-    takeInterrupt();
+    if (const int number = io_.pendingInterrupt(currentPriority()); number >= 0)
+        enterException(firstExternal + number, number, io_.priority(number));
     deadline_ = std::min(io_.nextEvent(), end);
     stopped_ = asleep_ = false;
     exception_ = -1;
     const uc_err error = uc_emu_start(engine_, reg(UC_ARM_REG_PC) | 1, 0xFFFFFFF0, 0, 0);
-    commit();
+    cycle_ += std::exchange(pendingCycles_, 0);
     current_ = nullptr;
     const bool returns =
         exception_ == unicornExceptionReturn || (reg(UC_ARM_REG_PC) & exceptionReturns) == exceptionReturns;
     if (returns && !active_.empty()) return leaveException();
-    if (error != UC_ERR_OK || exception_ >= 0) return fault();
+    if (error != UC_ERR_OK || exception_ >= 0) {
+        if (++faults_ > 100) throw std::runtime_error("virtual board: fault upon fault");
+        return enterException(hardFault, -hardFault, faultPriority);
+    }
     if (stopped_ || io_.pendingInterrupt(currentPriority()) >= 0 || deadline_ <= cycle_) return;
     asleep_ = active_.empty();
     idle_ += deadline_ - cycle_;
@@ -413,12 +390,6 @@ ElfImage readElf(const std::string& path) {
         throw std::runtime_error(path + ": " + e.what());
     }
     return image;
-}
-
-ElfImage::Symbol ElfImage::symbolLike(const std::string& part) const {
-    for (const auto& [name, symbol] : symbols)
-        if (name.find(part) != std::string::npos) return symbol;
-    throw std::runtime_error("no symbol like " + part + " in the image");
 }
 
 } // namespace physvib::virtualboard

@@ -11,8 +11,10 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 // Estimates the cycles of an instruction block on a Cortex-M4F, as an optimistic and a pessimistic bound.
@@ -64,7 +66,11 @@ struct ElfImage {
     std::map<std::string, Symbol> symbols; ///< by mangled name
 
     /// The symbol whose name contains `part`; throws std::runtime_error if there is none.
-    Symbol symbolLike(const std::string& part) const;
+    Symbol symbolLike(const std::string& part) const {
+        for (const auto& [name, symbol] : symbols)
+            if (name.find(part) != std::string::npos) return symbol;
+        throw std::runtime_error("no symbol like " + part + " in the image");
+    }
 };
 
 /// Throws std::runtime_error with the file's name and what was expected.
@@ -87,10 +93,16 @@ public:
     double seconds() const { return static_cast<double>(cycle_) / io_.hz(); }
 
     /// Sends bytes to the board at line speed, from `seconds` on (0: now).
-    void send(std::span<const std::uint8_t> bytes, double seconds = 0.0);
+    void send(std::span<const std::uint8_t> bytes, double seconds = 0.0) {
+        const auto from = std::max(cycle_, static_cast<std::uint64_t>(seconds * io_.hz()));
+        for (const std::uint8_t byte : bytes) io_.lineIn(byte, from + io_.cyclesPerByte());
+    }
 
     /// Bytes sent by the board since the last call.
-    std::vector<LineByte> received();
+    std::vector<LineByte> received() {
+        const auto bytes = std::exchange(io_.lineOut, {});
+        return {bytes.begin(), bytes.end()};
+    }
 
     Peripherals& io() { return io_; }
     std::vector<std::uint8_t> memory(std::uint32_t address, std::size_t size) const;
@@ -121,12 +133,9 @@ private:
     void enterBlock(std::uint32_t address, std::uint32_t size);
     const BlockCost& blockAt(std::uint32_t address, std::uint32_t size);
     std::uint64_t storeTime() const;
-    void commit();
     int currentPriority() const { return active_.empty() ? 256 : active_.back().priority; }
-    void takeInterrupt();
     void enterException(int vector, int number, int priority);
     void leaveException();
-    void fault();
     void reset(bool byWatchdog);
     void runSlice(std::uint64_t end);
     std::uint32_t reg(int id) const;

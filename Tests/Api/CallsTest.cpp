@@ -216,22 +216,13 @@ physvib_world_counts countsOf(physvib_world world) {
     return counts;
 }
 
-std::string explained(physvib_world world) {
-    char text[256];
-    EXPECT_GT(physvib_world_explain(world, text, sizeof text), 20);
-    return text;
-}
-
-TEST(Calls, EveryReasonWhyNothingIsFeltIsCountedAndSaid) {
+TEST(Calls, EveryReasonWhyNothingIsFeltIsCounted) {
     const physvib_world world = worldOfABall();
-    EXPECT_NE(explained(world).find("No step"), std::string::npos);
     step(world);
-    EXPECT_NE(explained(world).find("No contact"), std::string::npos);
     EXPECT_EQ(land(world, 0.01), PHYSVIB_OK); // 5 mm/s
     EXPECT_EQ(countsOf(world).contacts, 1);
     EXPECT_EQ(countsOf(world).below_threshold, 1);
     EXPECT_NEAR(countsOf(world).threshold_m_per_s, 0.15, 1e-9);
-    EXPECT_NE(explained(world).find("threshold of 0.15 m/s"), std::string::npos);
 
     auto muted = test::begun(physvib_world_settings_init);
     muted.is_muted = 1;
@@ -241,7 +232,6 @@ TEST(Calls, EveryReasonWhyNothingIsFeltIsCountedAndSaid) {
         EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
     }
     EXPECT_EQ(countsOf(world).muted, 2);
-    EXPECT_NE(explained(world).find("muted"), std::string::npos);
 
     physvib_body silent = test::feltBall();
     silent.frequency_hz = silent.decay_per_s = 0.0;
@@ -252,15 +242,12 @@ TEST(Calls, EveryReasonWhyNothingIsFeltIsCountedAndSaid) {
         EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
     }
     EXPECT_EQ(countsOf(world).unplayable, 3);
-    EXPECT_NE(explained(world).find("frequency"), std::string::npos);
     silent.is_camera = 0;
     ASSERT_EQ(physvib_world_set_body(world, 1, &silent), PHYSVIB_OK);
     step(world);
     EXPECT_EQ(land(world, 6.0), PHYSVIB_OK);
     EXPECT_EQ(countsOf(world).no_source, 1);
-    EXPECT_NE(explained(world).find("is_camera"), std::string::npos);
     EXPECT_EQ(countsOf(world).events, 0);
-    EXPECT_EQ(physvib_world_explain(world, nullptr, 5), PHYSVIB_ERROR_ARGUMENT);
     physvib_world_free(world);
 }
 

@@ -83,11 +83,43 @@ public:
     physvib_renderer_settings output = test::begun(physvib_renderer_settings_init);
 };
 
+using Make = std::function<void(Silent&)>;
+
 struct Reason {
     const char* name;
-    std::function<void(Silent&)> make;
+    Make make;
     std::vector<std::string> says; // all of them
 };
+
+/// A hit after that change; and after one of the ball or the settings, or of an open renderer, which plays
+/// it.
+Make hit(void (*change)(Silent&)) {
+    return [=](Silent& s) {
+        change(s);
+        s.hit();
+    };
+}
+Make hitWithBall(void (*change)(Silent&)) {
+    return [=](Silent& s) {
+        change(s);
+        s.set();
+        s.hit();
+    };
+}
+Make hitWithSettings(void (*change)(Silent&)) {
+    return [=](Silent& s) {
+        change(s);
+        s.configure();
+        s.hit();
+    };
+}
+Make playedBy(void (*change)(Silent&)) {
+    return [=](Silent& s) {
+        s.open();
+        change(s);
+        s.play();
+    };
+}
 
 const std::vector<Reason>& reasons() {
     static const std::vector<Reason> all{
@@ -105,11 +137,7 @@ const std::vector<Reason>& reasons() {
          },
          {"does not know (7)", "physvib_world_set_body"}},
         {"NoSource",
-         [](Silent& s) {
-             s.ball.is_camera = 0;
-             s.set();
-             s.hit();
-         },
+         hitWithBall([](Silent& s) { s.ball.is_camera = 0; }),
          {"haptic source", "set is_camera"}},
         {"OthersTouch",
          [](Silent& s) {
@@ -136,32 +164,23 @@ const std::vector<Reason>& reasons() {
          },
          {"body 1 is asleep", "wakes"}},
         {"BothMassesZero",
-         [](Silent& s) {
+         hitWithBall([](Silent& s) {
              s.ball.mass_kg = 0.0;
              s.ball.static_mass_kg = 2.0;
-             s.set();
-             s.hit();
-         },
+         }),
          {"have a mass of 0", "set mass_kg"}},
         {"NormalReversed",
-         [](Silent& s) {
+         hit([](Silent& s) {
              s.contact.approach_m_per_s = PHYSVIB_UNKNOWN;
              s.contact.normal_y = 1.0;
              physvib_world_move(s.world, 1, 0.5, 0.6, 0.0, -3.0, 0.0);
-             s.hit();
-         },
+         }),
          {"part along the reported normal, at up to 3 m/s", "from a to b"}},
         {"NoSpeed",
-         [](Silent& s) {
-             s.contact.approach_m_per_s = PHYSVIB_UNKNOWN;
-             s.hit();
-         },
+         hit([](Silent& s) { s.contact.approach_m_per_s = PHYSVIB_UNKNOWN; }),
          {"without a speed", "approach_m_per_s or impulse_n_s", "physvib_world_move"}},
         {"BelowThreshold",
-         [](Silent& s) {
-             s.contact.approach_m_per_s = 0.08;
-             s.hit();
-         },
+         hit([](Silent& s) { s.contact.approach_m_per_s = 0.08; }),
          {"slower than the threshold of 0.15 m/s", "the strongest impact had 0.08 m/s", "threshold_m_per_s"}},
         {"BelowThresholdOfTheStep",
          [](Silent& s) {
@@ -177,32 +196,23 @@ const std::vector<Reason>& reasons() {
          },
          {"under a gravity of 981 m/s^2", "pixels"}},
         {"Pixels",
-         [](Silent& s) {
+         hit([](Silent& s) {
              s.contact.x_m = 400.0;
              s.contact.y_m = 300.0;
              s.contact.approach_m_per_s = 500.0;
-             s.hit();
-         },
+         }),
          {"x 400 to 400 m", "pixels", "divide lengths"}},
         {"FastPixels",
-         [](Silent& s) {
-             s.contact.approach_m_per_s = 500.0;
-             s.hit();
-         },
+         hit([](Silent& s) { s.contact.approach_m_per_s = 500.0; }),
          {"up to 500 m/s", "pixels"}},
         {"FieldNotSet",
-         [](Silent& s) {
-             s.contact.x_m = 3.0;
-             s.hit();
-         },
+         hit([](Silent& s) { s.contact.x_m = 3.0; }),
          {"x 3 to 3 m", "outside the field of 1 m, as it is at first", "set field_width_m"}},
         {"OutsideTheWorldsField",
-         [](Silent& s) {
+         hitWithSettings([](Silent& s) {
              s.settings.field_width_m = 2.0;
-             s.configure();
              s.contact.x_m = 3.0;
-             s.hit();
-         },
+         }),
          {"outside the field of 2 m", "set field_width_m"}},
         {"OutsideTheRenderersField",
          [](Silent& s) {
@@ -230,61 +240,29 @@ const std::vector<Reason>& reasons() {
          },
          {"layout does not cover"}},
         {"WorldMuted",
-         [](Silent& s) {
-             s.settings.is_muted = 1;
-             s.configure();
-             s.hit();
-         },
+         hitWithSettings([](Silent& s) { s.settings.is_muted = 1; }),
          {"muted", "set is_muted of the world to false"}},
-        {"GainOfZero",
-         [](Silent& s) {
-             s.ball.gain = 0.0;
-             s.set();
-             s.hit();
-         },
-         {"gain of 0 of the haptic source"}},
+        {"GainOfZero", hitWithBall([](Silent& s) { s.ball.gain = 0.0; }), {"gain of 0 of the haptic source"}},
         {"NoSound",
-         [](Silent& s) {
-             s.ball.frequency_hz = s.ball.decay_per_s = 0.0;
-             s.set();
-             s.hit();
-         },
+         hitWithBall([](Silent& s) { s.ball.frequency_hz = s.ball.decay_per_s = 0.0; }),
          {"have no sound", "set frequency_hz and decay_per_s"}},
         {"LevelOfZero",
-         [](Silent& s) {
-             s.open();
-             physvib_renderer_set_level(s.renderer, 0, 0.0);
-             s.play();
-         },
+         playedBy([](Silent& s) { physvib_renderer_set_level(s.renderer, 0, 0.0); }),
          {"level of the output is 0"}},
         {"LevelOfMinus60dB",
-         [](Silent& s) {
-             s.open();
-             physvib_renderer_set_level(s.renderer, 0, 0.001);
-             s.play();
-         },
+         playedBy([](Silent& s) { physvib_renderer_set_level(s.renderer, 0, 0.001); }),
          {"level of the output is -60 dB, which nobody feels"}},
         {"LevelLow",
-         [](Silent& s) {
-             s.open();
-             physvib_renderer_set_level(s.renderer, 0, 0.01);
-             s.play();
-         },
+         playedBy([](Silent& s) { physvib_renderer_set_level(s.renderer, 0, 0.01); }),
          {"level of the output is low, -40 dB"}},
         {"ChannelsMuted",
-         [](Silent& s) {
-             s.open();
+         playedBy([](Silent& s) {
              for (int j = 0; j < 3; ++j) physvib_renderer_set_mute(s.renderer, 0, j, 1);
              physvib_renderer_set_gain(s.renderer, 0, 3, 0.0);
-             s.play();
-         },
+         }),
          {"channels that play these places are muted", "gain is 0"}},
         {"SilenceHeld",
-         [](Silent& s) {
-             s.open();
-             physvib_renderer_silence(s.renderer, 0, 10'000'000'000);
-             s.play();
-         },
+         playedBy([](Silent& s) { physvib_renderer_silence(s.renderer, 0, 10'000'000'000); }),
          {"Silence is held by physvib_renderer_silence"}},
         {"NeverPulled",
          [](Silent& s) {

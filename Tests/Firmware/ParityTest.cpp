@@ -64,8 +64,7 @@ TEST(BoardParity, Segments) {
     auto segments = test::randomBoardSegments(2, 2000, 60'000, 320, 9);
     for (const BoardSegment& segment : test::randomBoardSegments(1, 2000, 60'000, 150, 10))
         segments.push_back(segment);
-    std::stable_sort(segments.begin(), segments.end(),
-                     [](const BoardSegment& a, const BoardSegment& b) { return a.frame < b.frame; });
+    std::ranges::stable_sort(segments, {}, &BoardSegment::frame);
     rig.play(events, segments, 63'000);
     const auto t = rig.telemetry();
     const auto here = std::make_unique<BoardRenderer>();

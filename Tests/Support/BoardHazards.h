@@ -80,8 +80,7 @@ inline BoardHazard slowBoardList(std::uint32_t seed, int seconds) {
             a = static_cast<std::int16_t>(random.uniform(-loudest, loudest) * limits::board::amplitudeUnit);
         h.events.push_back(e);
     }
-    std::stable_sort(h.events.begin(), h.events.end(),
-                     [](const BoardEvent& a, const BoardEvent& b) { return a.frame < b.frame; });
+    std::ranges::stable_sort(h.events, {}, &BoardEvent::frame);
     BoardSegment segment;
     for (segment.frame = 100; segment.frame < static_cast<std::uint32_t>(frames);
          segment.frame += segment.frames) {

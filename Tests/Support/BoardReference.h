@@ -112,8 +112,7 @@ inline std::vector<BoardEvent> randomBoardEvents(const BoardListSettings& s, std
             a = static_cast<std::int16_t>(random.uniform(-s.loudest, s.loudest) *
                                           limits::board::amplitudeUnit);
     }
-    std::stable_sort(events.begin(), events.end(),
-                     [](const BoardEvent& a, const BoardEvent& b) { return a.frame < b.frame; });
+    std::ranges::stable_sort(events, {}, &BoardEvent::frame);
     return events;
 }
 
@@ -141,8 +140,7 @@ inline std::vector<BoardSegment> randomBoardSegments(int tones, std::uint32_t fi
             phase += segment.turn * segment.frames;
         }
     }
-    std::stable_sort(segments.begin(), segments.end(),
-                     [](const BoardSegment& a, const BoardSegment& b) { return a.frame < b.frame; });
+    std::ranges::stable_sort(segments, {}, &BoardSegment::frame);
     return segments;
 }
 

@@ -84,8 +84,7 @@ inline std::vector<CollisionEvent> randomEvents(int count, double seconds, std::
         e.y = random.uniform(0, 1);
         if (random.below(5) == 0) e.durationNs = static_cast<std::int64_t>(random.uniform(0.001, 0.5) * 1e9);
     }
-    std::stable_sort(events.begin(), events.end(),
-                     [](const auto& a, const auto& b) { return a.timeNs < b.timeNs; });
+    std::ranges::stable_sort(events, {}, &CollisionEvent::timeNs);
     return events;
 }
 

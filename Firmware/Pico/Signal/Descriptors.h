@@ -50,6 +50,9 @@ struct AudioReply {
 /// Main loop only.
 template <int channels>
 class AudioControls {
+    template <class T>
+    using Each = std::array<T, static_cast<std::size_t>(channels) + 1>; // [0]: all channels
+
 public:
     /// Answer to a request for the current value or the range of a control.
     AudioReply get(std::uint8_t unit, std::uint8_t request, std::uint8_t control,
@@ -73,11 +76,9 @@ public:
     bool set(std::uint8_t unit, std::uint8_t request, std::uint8_t control, std::uint8_t channel,
              const std::uint8_t* data, std::uint16_t count) noexcept {
         if (request != audio_request::current) return false;
-        if (unit == unitClock) { // one rate: setting that one is no error
-            constexpr std::uint32_t rate = sampleRateHz;
+        if (unit == unitClock) // one rate: setting that one is no error
             return control == audio_request::clockFrequency && channel == 0 && count == 4 &&
-                   std::equal(data, data + 4, littleEndian(rate).begin());
-        }
+                   (data[0] | data[1] << 8 | data[2] << 16 | data[3] << 24) == sampleRateHz;
         if (unit != unitVolume || channel > channels) return false;
         if (control == audio_request::mute && count == 1) {
             isMuted_[channel] = data[0] != 0;
@@ -91,14 +92,14 @@ public:
 
     /// All of it in a byte per channel, the one for all first: steps below the highest volume, and mute in
     /// the highest bit. Steps are rounded towards silence.
-    std::array<std::uint8_t, static_cast<std::size_t>(channels) + 1> kept() const noexcept {
-        std::array<std::uint8_t, static_cast<std::size_t>(channels) + 1> bytes{};
+    Each<std::uint8_t> kept() const noexcept {
+        Each<std::uint8_t> bytes{};
         for (std::size_t j = 0; j < bytes.size(); ++j)
             bytes[j] = static_cast<std::uint8_t>((maxVolume - volume_[j] + volumeStep - 1) / volumeStep |
                                                  (isMuted_[j] ? 0x80 : 0));
         return bytes;
     }
-    void restore(const std::array<std::uint8_t, static_cast<std::size_t>(channels) + 1>& bytes) noexcept {
+    void restore(const Each<std::uint8_t>& bytes) noexcept {
         for (std::size_t j = 0; j < bytes.size(); ++j) {
             volume_[j] = std::max(minVolume, maxVolume - (bytes[j] & 0x7f) * volumeStep);
             isMuted_[j] = (bytes[j] & 0x80) != 0;
@@ -113,10 +114,6 @@ public:
     }
 
 private:
-    static constexpr std::array<std::uint8_t, 4> littleEndian(std::uint32_t value) noexcept {
-        return {static_cast<std::uint8_t>(value), static_cast<std::uint8_t>(value >> 8),
-                static_cast<std::uint8_t>(value >> 16), static_cast<std::uint8_t>(value >> 24)};
-    }
     static void addValues(AudioReply& reply, bool isRange, int value, int most, int resolution,
                           int width) noexcept {
         if (isRange) reply.add(1, 2); // one range
@@ -126,8 +123,8 @@ private:
         reply.add(static_cast<std::uint32_t>(resolution), width);
     }
 
-    std::array<int, static_cast<std::size_t>(channels) + 1> volume_{}; // [0]: all channels
-    std::array<bool, static_cast<std::size_t>(channels) + 1> isMuted_{};
+    Each<int> volume_{};
+    Each<bool> isMuted_{};
 };
 /// Which form of feedback the host reads. At full speed macOS takes 10.14 in three bytes alone, and
 /// Windows 16.16 in four alone; Linux finds out by itself. After a reset of the bus, macOS asks for a text

@@ -72,6 +72,7 @@ typedef struct physvib_box2d3 {
 #define PHYSVIB_BOX_STATE physvib_box2d3
 #define PHYSVIB_BOX_WORLD(haptics) ((haptics)->box2d)
 #define PHYSVIB_BOX_NAME "Box2D"
+#define PHYSVIB_BOX_INERTIA(body) PHYSVIB_BOX2D3_INERTIA(body)
 #define PHYSVIB_B(name) b2##name
 #define PHYSVIB_B_EQUALS B2_ID_EQUALS
 #include <physvib/engines/physvib_boxes.h>
@@ -79,25 +80,9 @@ typedef struct physvib_box2d3 {
 #undef PHYSVIB_BOX_STATE
 #undef PHYSVIB_BOX_WORLD
 #undef PHYSVIB_BOX_NAME
+#undef PHYSVIB_BOX_INERTIA
 #undef PHYSVIB_B
 #undef PHYSVIB_B_EQUALS
-
-/* Sets a body's values (from physvib_body_init); mass, inertia and gravity scale are Box2D's of the step. */
-PHYSVIB_UNUSED static int physvib_box2d3_set(physvib_box2d3* haptics, b2BodyId body, int id,
-                                             physvib_body values) {
-    const int falls = b2Body_GetType(body) == b2_dynamicBody;
-    physvib_box2d3_number* number;
-    int code;
-    values.mass_kg = falls ? b2Body_GetMass(body) : 0;
-    values.inertia_kg_m2 = falls ? PHYSVIB_BOX2D3_INERTIA(body) : 0;
-    values.gravity_scale = b2Body_GetGravityScale(body);
-    code = physvib_world_set_body(haptics->world, id, &values);
-    if (code != PHYSVIB_OK) return code;
-    number = physvib_box2d3_entry(haptics, body);
-    if (!number) return PHYSVIB_ERROR_MEMORY;
-    number->id = id, number->is_told = 0, number->values = values;
-    return PHYSVIB_OK;
-}
 
 /* Acceleration by gravity along the normal, m/s^2. */
 PHYSVIB_UNUSED static double physvib_box2d3_pull(b2WorldId world, b2BodyId body, b2Vec2 normal) {

@@ -57,6 +57,7 @@ PHYSVIB_UNUSED static double physvib_box3d_dot(const physvib_box3d_vector* a, co
 #define PHYSVIB_BOX_STATE physvib_box3d
 #define PHYSVIB_BOX_WORLD(haptics) ((haptics)->box3d)
 #define PHYSVIB_BOX_NAME "Box3D"
+#define PHYSVIB_BOX_INERTIA(body) 0 /* told with each step, about each axis */
 #define PHYSVIB_B(name) b3##name
 #define PHYSVIB_B_EQUALS B3_ID_EQUALS
 #include <physvib/engines/physvib_boxes.h>
@@ -64,24 +65,9 @@ PHYSVIB_UNUSED static double physvib_box3d_dot(const physvib_box3d_vector* a, co
 #undef PHYSVIB_BOX_STATE
 #undef PHYSVIB_BOX_WORLD
 #undef PHYSVIB_BOX_NAME
+#undef PHYSVIB_BOX_INERTIA
 #undef PHYSVIB_B
 #undef PHYSVIB_B_EQUALS
-
-/* Sets a body's values (from physvib_body_init); mass, inertia and gravity scale are Box3D's of the step. */
-PHYSVIB_UNUSED static int physvib_box3d_set(physvib_box3d* haptics, b3BodyId body, int id,
-                                            physvib_body values) {
-    physvib_box3d_number* number;
-    int code;
-    values.mass_kg = b3Body_GetType(body) == b3_dynamicBody ? b3Body_GetMass(body) : 0;
-    values.inertia_kg_m2 = 0; /* told with each step, about each axis */
-    values.gravity_scale = b3Body_GetGravityScale(body);
-    code = physvib_world_set_body(haptics->world, id, &values);
-    if (code != PHYSVIB_OK) return code;
-    number = physvib_box3d_entry(haptics, body);
-    if (!number) return PHYSVIB_ERROR_MEMORY;
-    number->id = id, number->is_told = 0, number->values = values;
-    return PHYSVIB_OK;
-}
 
 /** What a contact sees of one of its two bodies, along the normal. */
 typedef struct physvib_box3d_side {

@@ -52,6 +52,24 @@ PHYSVIB_UNUSED static PHYSVIB_BOX(_number) *
     return numbers;
 }
 
+/* Sets a body's values (from physvib_body_init); mass, inertia and gravity scale are the engine's of the
+ * step. */
+PHYSVIB_UNUSED static int PHYSVIB_BOX(_set)(PHYSVIB_BOX_STATE* haptics, PHYSVIB_B(BodyId) body, int id,
+                                            physvib_body values) {
+    const int falls = PHYSVIB_B(Body_GetType)(body) == PHYSVIB_B(_dynamicBody);
+    PHYSVIB_BOX(_number) * number;
+    int code;
+    values.mass_kg = falls ? PHYSVIB_B(Body_GetMass)(body) : 0;
+    values.inertia_kg_m2 = falls ? PHYSVIB_BOX_INERTIA(body) : 0;
+    values.gravity_scale = PHYSVIB_B(Body_GetGravityScale)(body);
+    code = physvib_world_set_body(haptics->world, id, &values);
+    if (code != PHYSVIB_OK) return code;
+    number = PHYSVIB_BOX(_entry)(haptics, body);
+    if (!number) return PHYSVIB_ERROR_MEMORY;
+    number->id = id, number->is_told = 0, number->values = values;
+    return PHYSVIB_OK;
+}
+
 /* Call at the end; `world` is the caller's. */
 PHYSVIB_UNUSED static void PHYSVIB_BOX(_free)(PHYSVIB_BOX_STATE* haptics) {
     free(haptics->numbers), free(haptics->found);

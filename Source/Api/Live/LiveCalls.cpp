@@ -294,23 +294,14 @@ const char* holderOf(const MuteRequests& silence) noexcept {
     return "physvib_live_silence";
 }
 
-physvib_renderer_settings settingsOf(const PhantomPanner& panner) {
-    physvib_renderer_settings settings;
-    physvib_renderer_settings_init(&settings, sizeof settings);
-    settings.law = static_cast<int>(panner.requestedLaw());
-    settings.exponent = panner.exponent();
-    settings.field_width_m = panner.fieldWidthMetres();
-    settings.field_height_m = panner.fieldHeightMetres();
-    writeLayout(panner.layout(), settings.layout);
-    return settings;
-}
-
 } // namespace
 
 int physvib_live_explain(physvib_live name, physvib_world world, char* text, size_t size) {
     return in(name, [&](Live& live) {
         const LiveStatus now = live.status();
-        const physvib_renderer_settings settings = settingsOf(live.session().panner());
+        physvib_renderer_settings settings;
+        physvib_renderer_settings_init(&settings, sizeof settings);
+        writePanner(live.session().panner(), settings);
         physvib_output_facts facts;
         physvib_output_facts_init(&facts, sizeof facts);
         facts.is_missing = live.output().isPlaying() ? 0 : 1;

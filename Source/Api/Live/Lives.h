@@ -41,22 +41,64 @@ public:
     Live& operator=(const Live&) = delete;
 
     /// Waits for device and sinks. Returns empty, or one line with the reason.
-    std::string open();
+    std::string open() {
+        std::promise<std::string> opened;
+        auto told = opened.get_future();
+        messages_ = std::thread{[this, opened = std::move(opened)]() mutable { run(std::move(opened)); }};
+        return told.get();
+    }
 
     /// Silences and closes the device, and waits for both. Empty, or why the session file is incomplete.
-    std::string end();
+    std::string end() {
+        isEnding_ = true;
+        if (messages_.joinable()) messages_.join();
+        return unsaved_;
+    }
 
     /// Any thread, after open().
     Session& session() noexcept { return rig_->session(); }
     AudioOutput& output() noexcept { return rig_->output(); }
-    LiveStatus status() const;
+    LiveStatus status() const {
+        const std::lock_guard lock{statusMutex_};
+        return status_;
+    }
     bool isOfThisProcess() const noexcept { return process_ == thisProcess(); }
     int stepsPerSecond() const noexcept { return rig_->settings().setup.stepsPerSecond; }
 
 private:
     static constexpr int watchesPerSecond = 50;
-    void run(std::promise<std::string> opened);
-    bool watch();
+    // The message thread, which owns the device.
+    void run(std::promise<std::string> opened) {
+        rig_.emplace(std::move(settings_), withNoDevice(systemAudioDrivers));
+        if (std::string error = rig_->open(); error.empty()) {
+            rig_->start();
+            watch();
+            opened.set_value({});
+            repeatEvery(std::chrono::milliseconds{1000 / watchesPerSecond}, [this] { return watch(); });
+            rig_->stop([](const PlayedEvent&) {});
+            unsaved_ = rig_->finish(false); // before closing the device, which may hang
+        } else {
+            opened.set_value(std::move(error));
+        }
+        rig_.reset(); // on the thread that opened the device
+    }
+    bool watch() {
+        rig_->takePlayed([](const PlayedEvent&) {});
+        if (ticks_++ % watchesPerSecond == 0) {
+            rig_->maintain();
+            trouble_ = rig_->trouble();
+        }
+        LiveStatus now{rig_->output().status(),
+                       rig_->session().status().render,
+                       rig_->output().sampleRateHz(),
+                       rig_->output().blockFrames(),
+                       rig_->output().device(),
+                       rig_->sinkStates(),
+                       trouble_};
+        const std::lock_guard lock{statusMutex_};
+        status_ = std::move(now);
+        return !isEnding_;
+    }
 
     const int process_ = thisProcess();
     RigSettings settings_;   // until the rig is created
@@ -88,6 +130,15 @@ auto in(physvib_live name, Call call) noexcept {
 
 inline bool isLevel(double db) noexcept { return db >= -90.0 && db <= 0.0; } // not NaN
 inline float gainOf(double db) noexcept { return static_cast<float>(fromDecibels(db)); }
+
+/// Law, field and layout of a panner. Returns PHYSVIB_OK, or sets the error.
+inline int writePanner(const PhantomPanner& panner, physvib_renderer_settings& to) noexcept {
+    to.law = static_cast<int>(panner.requestedLaw()); // which is the law, unless parts choose
+    to.exponent = panner.exponent();
+    to.field_width_m = panner.fieldWidthMetres();
+    to.field_height_m = panner.fieldHeightMetres();
+    return writeLayout(panner.layout(), to.layout);
+}
 
 /// As takeRenderer; null: the defaults.
 inline bool takeRendererOrUsual(const physvib_renderer_settings* from, RendererSettings& to) noexcept {

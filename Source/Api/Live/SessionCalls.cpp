@@ -92,12 +92,7 @@ int physvib_session_get_renderer(physvib_session name, physvib_renderer_settings
             return PHYSVIB_ERROR_ARGUMENT;
         told.channels = session.channels;
         told.limiter = session.limiterEnabled ? 1 : 0;
-        told.law = static_cast<int>(session.panner.requestedLaw()); // which is the law, unless parts choose
-        told.exponent = session.panner.exponent();
-        told.field_width_m = session.panner.fieldWidthMetres();
-        told.field_height_m = session.panner.fieldHeightMetres();
-        if (const int code = writeLayout(session.panner.layout(), told.layout); code != PHYSVIB_OK)
-            return code;
+        if (const int code = writePanner(session.panner, told); code != PHYSVIB_OK) return code;
         return begin(renderer, renderer->size, told);
     });
 }
