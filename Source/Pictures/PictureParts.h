@@ -60,6 +60,8 @@ int lanesHeight(int channels) noexcept;
 /// The scale that all lanes of a window share, in words.
 std::string fullHeight(const WaveformEnvelope& wave);
 
+std::vector<int> everyChannelOf(const WaveformEnvelope& wave);
+
 /// Lanes of `channels` from top to bottom in `axis.lane`, labels and peaks beside them; above 16 strips whose
 /// brightness is the level, labelled in groups.
 void drawLanes(const Canvas& canvas, const PictureInput& input, const WaveformEnvelope& wave,
