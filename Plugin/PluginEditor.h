@@ -93,15 +93,10 @@ private:
     void showHint(const juce::String& text);
     void fillChoices();
     void nameMaterials();
-    void askFile();
-    void askSave(const juce::String& title, const juce::File& initial, const juce::String& endings,
-                 void (PluginEditor::*save)(const juce::File&));
     void showFiles();
     void showMenu(HostParameter& parameter, const std::function<void()>& type = {});
-    void forgetController(const std::string& parameter);
     void followLearning();
-    void silence();
-    bool closesFirst();
+    static bool closesFirst();
     void listenAround();
     juce::TextEditor* openBox() const; // in which a value is typed; null: none
     void fillPresets();
@@ -137,7 +132,9 @@ private:
     juce::String news_;               // of what was opened or asked for; until the next edit
     std::uint64_t shown_ = 0;         // the processor's count of states
     PluginState state_;
-    EmergencyStop stop_{*this, [this] { silence(); }, [this] { return closesFirst(); }};
+    // Only the button lifts: a host may close this window by the same Esc. It is no parameter's, or a track
+    // would be silent in the next session.
+    EmergencyStop stop_{*this, [this] { plugin_.stop(true); }, closesFirst};
 };
 
 } // namespace physvib

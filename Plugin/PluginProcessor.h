@@ -44,6 +44,7 @@ public:
         part, ///< of what may come many times in a row
         whole ///< a step of its own
     };
+    enum class Way { undo, redo, exchange };
 
     /// What was there before an edit.
     void add(PluginState before, TouchedParameters touched, Edit edit = Edit::part,
@@ -60,21 +61,20 @@ public:
         if (here_.undo.size() > most) here_.undo.erase(here_.undo.begin());
     }
 
-    bool canUndo() const noexcept { return !here_.undo.empty(); }
-    bool canRedo() const noexcept { return !here_.redo.empty(); }
+    bool can(Way way) const noexcept {
+        return way == Way::exchange || !(way == Way::undo ? here_.undo : here_.redo).empty();
+    }
     bool isAtB() const noexcept { return isAtB_; }
 
-    /// The state one step back or forth from `now`; none: there is none.
-    std::optional<Step> undo(PluginState now) { return move(here_.undo, here_.redo, std::move(now)); }
-    std::optional<Step> redo(PluginState now) { return move(here_.redo, here_.undo, std::move(now)); }
-
-    /// The other one of A and B; at first both are the same. They differ in the parameters that any step was
-    /// about.
-    Step exchange(PluginState now) {
+    /// The state one step back or forth from `now` (none: there is none), or the other one of A and B. At
+    /// first both are the same; they differ in the parameters that any step was about.
+    std::optional<Step> go(Way way, PluginState now) {
+        if (way == Way::undo) return move(here_.undo, here_.redo, std::move(now));
+        if (way == Way::redo) return move(here_.redo, here_.undo, std::move(now));
         isAtB_ = !isAtB_;
         last_ = {};
         std::swap(here_, there_);
-        return {std::exchange(other_, now).value_or(now), touched_};
+        return Step{std::exchange(other_, now).value_or(now), touched_};
     }
 
 private:
@@ -123,7 +123,7 @@ public:
     }
     /// What a person changed, one step back or forth, parameters of the window too; the other one of A and B.
     /// M.
-    enum class Step { undo, redo, exchange };
+    using Step = EditHistory::Way;
     void go(Step step);
     bool can(Step step) const;
     bool isAtB() const;
@@ -188,8 +188,14 @@ public:
     }
     void prepareToPlay(double sampleRateHz, int blockFrames) override;
     void releaseResources() override;
-    void processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
-    void processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
+    void processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override {
+        render(buffer, midi, false);
+        midi.clear();
+    }
+    void processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override {
+        render(buffer, midi, true);
+        midi.clear();
+    }
     using juce::AudioProcessor::processBlock;
     using juce::AudioProcessor::processBlockBypassed;
     /// None for LV2: its wrapper writes `lv2:enabled` over it in every block, and tells the host so from the
@@ -198,9 +204,7 @@ public:
         return wrapperType == wrapperType_LV2 ? nullptr
                                               : parameters_[static_cast<std::size_t>(Parameter::bypass)];
     }
-    double getTailLengthSeconds() const override {
-        return tailSeconds_;
-    } ///< with the knobs as they were told
+    double getTailLengthSeconds() const override { return tailSeconds_; } ///< with the knobs of tailKnobs_
     bool acceptsMidi() const override { return true; }
     bool producesMidi() const override { return false; }
     bool supportsMPE() const override { return true; }
@@ -219,7 +223,6 @@ public:
 
 private:
     static BusesProperties propertiesOf(const BusPlan& plan);
-    void addGroup(const ParameterGroup& group);
     void addParameters();
     void prepareGuard(int rate);
     static constexpr int tellsEveryMs = 50, sleepsMs = 2000; ///< while blocks are rendered, and while none is
@@ -253,7 +256,6 @@ private:
     void followTransport(int frames) noexcept;
     void followTempo(double seconds) noexcept;
     void forgetControls() noexcept;
-    bool hasNews(Parameter which) const noexcept;
     template <class Send>
     void send(std::initializer_list<Parameter> those, Send what) noexcept;
     template <class Hold>

@@ -34,6 +34,11 @@ SessionSetup sessionSetupOf(const PluginState& state);
 /// all is rendered in the call, without the output latency of a world. Any thread.
 bool hasWorld(const PluginState& state) noexcept;
 
+/// In the unit of that parameter, as a state has it or as it comes. Any thread.
+double valueIn(const PluginState& state, Parameter which);
+/// The nearest that the parameter can have. Any thread.
+void setParameter(PluginState& state, Parameter which, double value);
+
 /// Whether a parameter changes anything of what such a state plays, now or when a note comes: others need not
 /// be shown. Any thread.
 bool uses(const PluginState& state, const NoteKnobs& knobs, Parameter which) noexcept;

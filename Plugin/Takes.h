@@ -194,7 +194,6 @@ private:
     static constexpr std::size_t logSize = 16384; // ten minutes of "shake the box", if nobody looks
     static constexpr std::size_t kept = 3;        // one plays, one is next, one is ending or spare
     static constexpr std::size_t maxEnding = 8;   // loops as short as an eighth of L
-    std::shared_ptr<const TakeSpec> order() const;
     void setGaps(TakeSpec& order) const noexcept;
     std::unique_ptr<Take> newTake(std::shared_ptr<const TakeSpec> order, int sampleRateHz,
                                   int blockFrames) const;
@@ -217,7 +216,7 @@ private:
     // R
     template <class Do>
     void forEachSounding(Do what) const noexcept;
-    void letGo(Take*& take) noexcept;
+    static void letGo(Take*& take) noexcept;
     void letGoOfThoseOver() noexcept;
     RenderMode modeFor(const Take& take, int frames, RenderMode asked) noexcept;
     void writeStatus() noexcept;
