@@ -12,11 +12,9 @@ using namespace test;
 Samples blocksOf(juce::AudioProcessor& plugin, int frames, bool withNotes,
                  const std::function<void()>& prepared = {}) {
     plugin.setNonRealtime(true);
-    plugin.setRateAndBufferSizeDetails(48000.0, 512);
-    plugin.prepareToPlay(48000.0, 512);
+    auto buffer = prepareBlocks(plugin, 512);
     if (prepared) prepared();
     Samples signal(static_cast<std::size_t>(plugin.getTotalNumOutputChannels()));
-    juce::AudioBuffer<float> buffer(static_cast<int>(signal.size()), 512);
     for (int done = 0; done < frames; done += 512) {
         auto midi = withNotes ? oneNote(36 + done / 512 % 60, 100, done / 512 % 512) : juce::MidiBuffer{};
         buffer.clear();

@@ -66,9 +66,7 @@ public:
 
     void prepare(bool isOffline) {
         plugin().setNonRealtime(isOffline);
-        plugin().setRateAndBufferSizeDetails(48000.0, block);
-        plugin().prepareToPlay(48000.0, block);
-        buffer_.setSize(plugin().getTotalNumOutputChannels(), block);
+        buffer_ = prepareBlocks(plugin(), block);
     }
     /// The largest sample from frame `from` of the first block on.
     float peakOf(int blocks, int from = 0) {
