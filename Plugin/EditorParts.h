@@ -18,8 +18,7 @@ constexpr int toOpen = juce::FileBrowserComponent::openMode | juce::FileBrowserC
               toSave = juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::canSelectFiles |
                        juce::FileBrowserComponent::warnAboutOverwriting;
 
-/// Asks for a file, `toOpen` it or `toSave` it, and hands it to `use`; `chooser` lives as long as its window.
-/// M.
+/// Asks for a file `toOpen` or `toSave`, and hands it to `use`; `chooser` lives as long as its window. M.
 template <class Use>
 void askFile(std::unique_ptr<juce::FileChooser>& chooser, const juce::String& title, int how, Use use,
              const juce::File& initial = {}, const juce::String& endings = "*.json") {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws the list of MIDI rules, with a form for each kind of rule. The reader of states checks what is
-// entered.
+// Draws the list of MIDI rules, with a form for each kind; the reader of states checks what is entered.
 #include "EditorPanels.h"
 #include "EditorParts.h"
 #include <algorithm>

@@ -275,8 +275,7 @@ void PluginEditor::listenAround() {
         (around_ = around)->addKeyListener(this);
 }
 
-// A value's box gets the keys also before it has the keyboard (refresh). While anything is open, none is the
-// host's.
+// A value's box gets keys before it has the keyboard (refresh). While anything is open, the host gets none.
 bool PluginEditor::keyPressed(const juce::KeyPress& key) {
     if (auto* const box = openBox()) return box->keyPressed(key);
     return juce::Component::getCurrentlyModalComponent() == nullptr &&

@@ -123,8 +123,7 @@ private:
     std::vector<Group> groups_;
     std::vector<ParameterControl*> materials_;       // lists of materials
     NoteKnobs knobs_;                                // as they are shown
-    std::uint64_t aheadShown_ = 0, aheadBefore_ = 0; // blocks that the host had to wait for, at the last two
-                                                     // pictures
+    std::uint64_t aheadShown_ = 0, aheadBefore_ = 0; // blocks that the host waited for, at two pictures
     std::unique_ptr<juce::FileChooser> chooser_;
     std::vector<juce::File> presets_; // one's own, as they are listed
     int learning_ = -1;               // a parameter; -1: none

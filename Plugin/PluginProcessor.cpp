@@ -93,8 +93,7 @@ bool PluginProcessor::exchangeFor(PluginState state, bool followsWidth) {
     return true;
 }
 
-// A state that comes meanwhile on another thread is kept: either it is there already, and is not fitted, or
-// it comes after.
+// A state that comes meanwhile on another thread is kept: it is there and not fitted, or comes after.
 void PluginProcessor::fitToWidth() {
     const std::lock_guard one{applyMutex_};
     auto fitting = state();
@@ -235,8 +234,7 @@ bool PluginProcessor::keepsRefused() const {
     return !refused_.isEmpty();
 }
 
-// Only a hand on our editor begins a gesture, automation does not. Who silences what they did not expect
-// edits nothing.
+// Only a hand on our editor begins a gesture. Who silences what they did not expect edits nothing.
 void PluginProcessor::parameterGestureChanged(int which, bool begins) {
     if (!begins || which == static_cast<int>(Parameter::bypass)) return;
     auto before = state();

@@ -28,8 +28,7 @@ namespace physvib {
 /// controller or the host may have moved them since.
 using TouchedParameters = std::bitset<parameterCount>;
 
-/// One thread at a time. A and B have steps of their own. States hold whole scenes, so only the newest steps
-/// are kept.
+/// One thread at a time. A and B have their own steps: whole scenes, so only the newest are kept.
 class EditHistory {
 public:
     static constexpr std::size_t most = 30;
@@ -104,11 +103,9 @@ public:
     PluginProcessor(juce::String name, const BusPlan& plan);
     ~PluginProcessor() override;
 
-    /// What plays from now on. False and untouched, with a line in `trouble()`, if it cannot be played. Any
-    /// thread but R.
+    /// What plays from now on. False: it cannot, as `trouble()` says, and nothing changes. Any thread but R.
     bool apply(PluginState state);
-    /// The same for an edit by a person: the host marks its session as changed, and what plays goes on if it
-    /// can (isSameTake). M.
+    /// The same for an edit by hand: the host marks its session changed; what plays goes on if isSameTake. M.
     bool edit(PluginState state);
     /// An edit that sets the parameters as well. M.
     void open(PluginState state);
@@ -121,8 +118,7 @@ public:
         return knobsBy(
             [this](Parameter which) { return parameters_[static_cast<std::size_t>(which)]->value(); });
     }
-    /// What a person changed, one step back or forth, parameters of the window too; the other one of A and B.
-    /// M.
+    /// What a person changed, one step back or forth, with the window's parameters; the other of A and B. M.
     using Step = EditHistory::Way;
     void go(Step step);
     bool can(Step step) const;
@@ -138,12 +134,10 @@ public:
     /// The host's; at one that no renderer takes all is silent, and trouble() says so.
     int preparedRateHz() const noexcept { return static_cast<int>(sampleRateHz_.load()); }
 
-    /// How many frames a block usually has where a host announces far more (LV2); 0: as announced. M, before
-    /// prepareToPlay.
+    /// Frames of a usual block if a host announces far more (LV2); 0: as announced. M, before prepareToPlay.
     void expectBlocksOf(int frames) noexcept { usualBlockFrames_ = frames; }
 
-    /// What the host says of parameters within the coming block; it outlives that. Parameters without points
-    /// have their value all block long. R.
+    /// What the host says of parameters in the coming block, which it outlives; without points they stay. R.
     void expectPoints(PointSource& source) noexcept { source_ = &source; }
 
     /// What the host says of notes within it, beside its messages of MIDI; it outlives that block. R.
@@ -155,8 +149,7 @@ public:
     /// A key of the window: with a velocity it is struck in the next block, 0 lets it go. M, one writer.
     void play(int note, int velocity) noexcept { keys_.push({note, velocity}); }
 
-    /// Silence until it is lifted, by Esc in the window: no parameter, so that no session keeps it. Any
-    /// thread.
+    /// Silence until it is lifted, by Esc in the window: no parameter, no session keeps it. Any thread.
     void stop(bool isStopped) noexcept { isStopped_.store(isStopped, std::memory_order_relaxed); }
     bool isStopped() const noexcept { return isStopped_.load(std::memory_order_relaxed); }
 
@@ -178,8 +171,7 @@ public:
     }
     Takes& takes() noexcept { return takes_; }
     ChannelMeters meters() noexcept { return meters_.read(); } ///< one reader
-    /// Messages that a host sent for frames behind their block, which were played at its last one. Any
-    /// thread.
+    /// Messages for frames behind their block, which were played at its last one. Any thread.
     std::uint64_t displacedMessages() const noexcept { return displaced_; }
 
     const juce::String getName() const override { return name_; }
@@ -285,17 +277,14 @@ private:
     const BusPlan plan_;
     std::array<HostParameter*, parameterCount> parameters_{}; // owned by AudioProcessor
 
-    mutable std::mutex mutex_; // guards what follows, up to the atomics; nobody holds it while calling the
-                               // host
+    mutable std::mutex mutex_; // guards what follows, up to the atomics; never held while the host is called
     PluginState state_;
     juce::String trouble_;
     EditHistory history_;
     juce::MemoryBlock refused_; // a chunk that is not ours to lose
     std::atomic<int> program_{0};
-    std::mutex applyMutex_; // one exchange of states at a time; taken before mutex_, and not held while the
-                            // host is told either
-    std::atomic<bool> followsWidth_{true}; // the layout is a preset's, not somebody's: it has as many
-                                           // actuators as the host has outputs
+    std::mutex applyMutex_; // one exchange of states at a time; locked before mutex_, and likewise
+    std::atomic<bool> followsWidth_{true}; // the layout is a preset's: an actuator for each output
     std::atomic<std::uint64_t> stateCount_{0};
     std::atomic<double> sampleRateHz_{0.0};
     std::atomic<double> tailSeconds_{0.0};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plug-in processor on the render thread: transport, controls, MIDI, samples. Nothing here allocates,
-// locks or waits.
+// The plug-in processor on the render thread: transport, controls, MIDI, samples; no memory, locks, waits.
 #include "Core/PortableMath.h"
 #include "PluginProcessor.h"
 #include <algorithm>
@@ -15,8 +14,7 @@ constexpr int slideController = 74; // MPE's third dimension
 constexpr int sustainPedal = 64;
 constexpr int allSoundOff = 120;
 constexpr int resetControllers = 121;
-constexpr int allNotesOff = 123; // lets held ones go; what other notes strike rings out by itself, and the
-                                 // world is no note
+constexpr int allNotesOff = 123; // lets held ones go; others ring out, and the world is no note
 constexpr float peakFallDbPerSecond = 20.0f;
 
 } // namespace

@@ -268,8 +268,7 @@ Scene emptyField(const Instrument& instrument) {
 }
 
 EnchanterLayout beltOf(int count) {
-    // On a circle the last and the first are neighbours, too, and a note on one actuator is not shared among
-    // all, as it is in a row.
+    // On a circle the last and the first are neighbours: a note on one actuator is not shared among all.
     EnchanterLayout circle{2.0, 2.0, count, {}};
     for (int j = 0; j < count; ++j) {
         const double angle = 2.0 * std::numbers::pi * j / count;

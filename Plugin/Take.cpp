@@ -75,8 +75,7 @@ void Take::release(Held& held, std::int64_t until, Make make) noexcept {
     }
 }
 
-// What the renderer comes to within the next frames: it is as far behind them as an input there is felt
-// late, but for its own latency.
+// What the renderer comes to in the next frames: behind them as an input is felt late, less its own latency.
 void Take::releaseUntil(int frames) noexcept {
     const auto& time = session.timeline();
     const std::int64_t until = time.framesRendered() + frames - time.inputLatencyFrames() +

@@ -56,10 +56,8 @@ void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<St
         std::unique_ptr<Take> take;
         if (block > 0)
             take = newTake(wanted, rate, block);
-        else
-            Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond}; // throws if it
-                                                                                               // cannot be
-                                                                                               // simulated
+        else // throws if it cannot be simulated
+            Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond};
         lock.lock();
         // the host has prepared us meanwhile
         if (rate != sampleRateHz_ || block != blockFrames_ || known != knownAfterSeconds_) continue;
@@ -442,8 +440,7 @@ void Stepper::remove(Stepped& one) {
     std::erase_if(members_, [&](const Member& member) { return member.one == &one; });
 }
 
-// At multiples of its period, so that those of equal ones come in one waking, and none comes in a burst after
-// a stall.
+// At multiples of its period: equal ones come in one waking, and none comes in a burst after a stall.
 void Stepper::tick(Member& member, Clock::time_point now) {
     if (now < member.next) return;
     member.one->tick();

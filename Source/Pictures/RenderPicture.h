@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture of a render: the world and its impacts, the signal of each actuator, and a close-up of the
-// strongest impact.
+// A picture of a render: the world and its impacts, each actuator's signal, the strongest impact enlarged.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
