@@ -180,8 +180,7 @@ TEST(HjifFile, RefusesAMillionKeyframes) {
               std::string::npos);
 }
 
-// Control points for Android: what a phone makes of the file, by the builder's documented formula, against
-// the channel's envelope.
+// Android's control points: what a phone makes of them, by its documented formula, against the envelope.
 
 using nlohmann::json;
 

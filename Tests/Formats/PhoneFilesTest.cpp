@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Meta's and Apple's files: their rules are kept, what both carry comes back, what breaks a rule is refused
-// in one line.
+// Meta's and Apple's files: rules are kept, what both carry comes back, breaches are refused in one line.
 #include "ClipTesting.h"
 #include "Formats/Clip.h"
 #include "Formats/ClipFile.h"

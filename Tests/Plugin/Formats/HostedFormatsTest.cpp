@@ -78,8 +78,7 @@ TEST(HostedFormats, StateGoesThroughTheFormats) {
             ++world;
         ASSERT_LT(world, first->getNumPrograms()) << identifier;
         first->setCurrentProgram(world);
-        // Hosts hand parameters over with a block; JUCE's makes an LV2 anew when it prepares, by what it
-        // handed over.
+        // Hosts hand parameters over with a block; JUCE's makes an LV2 anew from them when it prepares.
         blocksOf(*first, 512, false, [&first] { named(*first, "Level")->setValue(1.0f); });
         restore(*second, chunkOf(*first));
         const auto a = blocksOf(*first, 48'128, false), b = blocksOf(*second, 48'128, false);

@@ -75,8 +75,7 @@ std::string descriptionOf(const std::string& width, const char* file = "dsp.ttl"
     return {std::istreambuf_iterator<char>{in}, {}};
 }
 
-/// What all enchanters together play in blocks of `size(i)` frames, of which each has what `say(at, frames)`
-/// adds.
+/// What all enchanters together play in blocks of `size(i)` frames, each with what `say(at, frames)` adds.
 template <class Size, class Say>
 std::vector<float> together(RawLv2& host, std::int64_t length, Size size, Say say) {
     std::vector<float> signal;
@@ -363,8 +362,7 @@ TEST(RawLv2, MusicAtItsTwoPortsIsFeltAsInTheProcessor) {
     host.deactivate();
 }
 
-// As lv2apply, ecasound and Audacity: audio and controls, no feature, and what they do not know is not
-// connected.
+// As lv2apply, ecasound and Audacity: audio and controls, no feature, and nothing else is connected.
 TEST(RawLv2, AHostThatKnowsTheCoreAloneNeedsNothingElse) {
     for (const std::string width : widths) {
         const auto text = descriptionOf(width);

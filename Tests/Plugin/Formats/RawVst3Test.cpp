@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VST3 in a host that does only what the standard makes it do: every arrangement, none at all, states,
-// suspensions.
+// VST3 in a host that does only what the standard demands: every arrangement, none, states, suspensions.
 #include "RawVst3.h"
 #include "Plugin/PluginTesting.h"
 #include "Support/BeatSong.h"

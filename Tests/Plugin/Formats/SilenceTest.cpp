@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // SILENCE by every door, in every format, whatever the host does: at most one block and the ramp of 10 ms
-// until nothing moves any more, and it stays so. In the wrappers themselves, since what they do to a bypass
-// is not ours.
+// until nothing moves, and it stays so. In the wrappers themselves: what they do to a bypass is not ours.
 #include "Plugin/Formats/Player.h"
 
 namespace physvib {
