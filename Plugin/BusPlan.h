@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Output buses of a build of the plug-in: which exist, which arrangements a host may choose, and the output
-// of each channel.
+// Output buses of a build: which exist, which arrangements a host may choose, and the output of each channel.
 #pragma once
 #include "Core/Limits.h"
 #include <array>
@@ -14,18 +13,15 @@ struct BusPlan {
     enum class Kind { oneBus, manyBuses };
     Kind kind = Kind::oneBus;
     int channels = 4;           ///< of the one bus until the host asks for another width; LV2 cannot ask
-    bool hasMusicPorts = false; ///< of LV2, whose ports cannot be off: music comes in by two that are always
-                                ///< on
+    bool hasMusicPorts = false; ///< of LV2, whose ports cannot be off: two for music are always on
 
     static constexpr int widestBus = 16; // VST3 gives up to 19 speakers names; LV2 and hosts stop at 16
-    static constexpr int busCount = 15;  // stereo: from 32 channels on JUCE takes memory in every block
-                                         // (decision 12)
+    static constexpr int busCount = 15;  // stereo: 32 channels cost memory in every block (decision 12)
     static constexpr int busesOfANewInstance = 2; // the thesis' four enchanters; the host enables the others
 };
 
-/// `channels` channels as a set that `format` carries in this order. VST3: the first N speaker types, since a
-/// set of discrete channels arrives permuted or crashes hosts that set no arrangement (decision 12). Any
-/// thread.
+/// `channels` channels as a set that `format` carries in this order. VST3: the first N speaker types;
+/// discrete channels arrive permuted or crash hosts that set no arrangement (decision 12). Any thread.
 juce::AudioChannelSet channelsInOrder(int channels, juce::AudioProcessor::WrapperType format);
 
 struct OutputBus {

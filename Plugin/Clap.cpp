@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // CLAP by its ABI, around the same processor, where a build names the folder of clap/clap.h (Modules.cmake):
-// notes with what is said of them and points of parameters straight from the host's list. Without a window:
-// hosts show parameters in their own.
+// notes with what is said of them and points of parameters from the host's list. Hosts show parameters.
 #include "PluginProcessor.h"
 #include <clap/clap.h>
 #include <cmath>

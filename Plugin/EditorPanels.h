@@ -87,6 +87,7 @@ private:
     bool isNote(int row) const { return row < static_cast<int>(state_.notes.size()); }
     int getNumRows() override { return static_cast<int>(state_.notes.size() + state_.controllers.size()); }
     void paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) override;
+    std::pair<juce::String, juce::String> wordsOfRow(int row) const;
     juce::String getNameForRow(int row) override;
     void selectedRowsChanged(int) override { showChoice(); }
     void listBoxItemDoubleClicked(int row, const juce::MouseEvent&) override { change(row); }

@@ -2,6 +2,7 @@
 // Labels, backgrounds and distances common to the parts of the editor.
 #pragma once
 #include "Host/Views/Look.h"
+#include <memory>
 #include <string_view>
 
 namespace physvib {
@@ -11,6 +12,20 @@ constexpr auto number = readable::words;
 
 inline juce::String words(std::string_view utf8) {
     return juce::String::fromUTF8(utf8.data(), static_cast<int>(utf8.size()));
+}
+
+constexpr int toOpen = juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
+              toSave = juce::FileBrowserComponent::saveMode | juce::FileBrowserComponent::canSelectFiles |
+                       juce::FileBrowserComponent::warnAboutOverwriting;
+
+/// Asks for a file `toOpen` or `toSave`, and hands it to `use`; `chooser` lives as long as its window. M.
+template <class Use>
+void askFile(std::unique_ptr<juce::FileChooser>& chooser, const juce::String& title, int how, Use use,
+             const juce::File& initial = {}, const juce::String& endings = "*.json") {
+    chooser = std::make_unique<juce::FileChooser>(title, initial, endings, false);
+    chooser->launchAsync(how, [use](const juce::FileChooser& chosen) {
+        if (const auto file = chosen.getResult(); file != juce::File{}) use(file);
+    });
 }
 
 /// A rounded ground. M.

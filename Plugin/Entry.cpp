@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The function by which a format's wrapper creates a plug-in instance; each build defines its name and its
-// buses.
+// How a format's wrapper creates a plug-in instance; each build defines its name and its buses.
 #include "PluginProcessor.h"
 
 namespace physvib {

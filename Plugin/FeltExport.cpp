@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Exports played events as MIDI, an event list or a haptic file; the format follows from the file name's
-// ending.
+// Exports played events as MIDI, an event list or a haptic file, by the ending of the file's name.
 #include "FeltExport.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Text/NameList.h"
@@ -17,8 +16,7 @@ namespace physvib {
 namespace {
 
 constexpr double shareOfSilence = 1e-3; // a vibration is over 60 dB below its beginning
-constexpr int ticksPerSecond = 24000;   // a quarter note of MIDI lasts a second: its ticks are numbers of 15
-                                        // bits
+constexpr int ticksPerSecond = 24000;   // a quarter note of MIDI is a second: at most 15 bits
 
 struct WrittenNote {
     int number = 0, channel = 1;

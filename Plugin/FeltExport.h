@@ -14,11 +14,9 @@ struct PluginState;
 /// The events of the newest run, as many as are worth a file. M only.
 class FeltEvents {
 public:
-    static constexpr std::size_t mostKept = 65536; ///< beyond it the oldest are left out: of a world that
-                                                   ///< never stops
+    static constexpr std::size_t mostKept = 65536; ///< of a world that never stops; the oldest go
 
-    /// What drainLog() gave, in its order; `prepares` counts how often the host has prepared us, as runs are
-    /// numbered from 1 each time.
+    /// What drainLog() gave, in its order, and how often we were prepared: runs count from 1 each time.
     void add(std::uint64_t prepares, std::span<const TakeEvent> events);
 
     /// Playable, in time order, the first at 0 if `fromFirst`, else from the run's beginning.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the host sends beside audio, as the render role reads it: held notes, its transport, and controls at a
-// limited pace.
+// What the host sends beside audio, as R reads it: held notes, its transport, and controls at a limited pace.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -37,8 +36,7 @@ struct NoteEvent {
     bool isOn() const noexcept { return kind == Kind::midi && (midi[0] & 0xf0) == 0x90 && midi[2] > 0; }
 };
 
-/// The events of a block as a format hands them over, in the order of frames. R, wait-free; valid until that
-/// block has been rendered.
+/// A block's events as a format hands them over, by frame. R, wait-free; valid until that block is rendered.
 class NoteSource {
 public:
     virtual bool next(NoteEvent& event) noexcept = 0; ///< false: there are no more
@@ -161,8 +159,7 @@ public:
         return channel < 16 && channel >= 16 - upper_ ? 16 : 0;
     }
 
-    /// Registered parameter 6 of channel 1 or 16 is how many members its zone has; the later one shrinks the
-    /// other's.
+    /// Registered parameter 6 of channel 1 or 16: members of its zone; the later one shrinks the other's.
     void controller(int channel, int number, int value) noexcept {
         constexpr int dataEntry = 6, parameterLow = 100, parameterHigh = 101, configuration = 6;
         int& parameter = parameter_[at(channel)];
@@ -228,9 +225,8 @@ private:
 };
 
 /// The host's quarter notes, and where a script that follows them is: it begins with the first one of its
-/// take, and has two of them a second where the scene's own time is the host's. What a host does not tell in
-/// a block goes on as it was, a place that jumps within a take moves the script by half a note at most. R
-/// only.
+/// take, and has two of them a second where the scene's own time is the host's. What a host does not tell
+/// goes on as it was; a place that jumps within a take moves the script by half a note at most. R only.
 class HostBeats {
 public:
     struct Script {

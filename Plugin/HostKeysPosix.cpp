@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The key as an event of X11, sent to the top-level window. X11 is loaded as JUCE loads it: no program has to
-// be linked with it.
+// The key as an event of X11 to the top-level window. X11 is loaded, as by JUCE: nothing is linked with it.
 #include "HostKeys.h"
 #ifdef __linux__
 #include <X11/Xlib.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parameters at a host: an entry of the table as a host parameter, whose value is one atomic float, and the
-// sample-accurate changes of a block.
+// Entries of the table as host parameters, each one atomic float, and a block's sample-accurate changes.
 #pragma once
 #include "Parameters.h"
 #include <algorithm>
@@ -116,8 +115,7 @@ public:
 
     void reset() noexcept { *this = {}; }
 
-    /// A block of so many frames; without a source, or where it says nothing of a parameter, there are no
-    /// points.
+    /// A block of so many frames; without a source, or where it says nothing, there are no points.
     void begin(PointSource* source, int frames) noexcept;
 
     /// The frame of the next point, of one parameter or of any; none: there are no more. A point behind the

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // LV2's entry: JUCE's (which CMake compiles as juceLv2Descriptor; the Projucer does without this file), and
-// the four things that it leaves out. It prepares for the largest block, not the usual one, takes no
-// notice of deactivate and activate, of what sets a parameter within a block it knows no frame, has no
-// control ports.
+// four things that it leaves out. It prepares for the largest block, not the usual one, takes no notice of
+// deactivate and activate, of what sets a parameter within a block it knows no frame, has no control ports.
 #ifdef PHYSVIB_LV2_ENTRY
 #include "Core/Limits.h"
 #include "Lv2Parts.h"
@@ -185,8 +184,7 @@ private:
 constexpr std::uint32_t eventPort = PHYSVIB_MUSIC_PORTS + PHYSVIB_CHANNELS, firstControl = eventPort + 5,
                         enabledPort = firstControl - 1;
 
-/// JUCE tells hosts of parameters as properties, which are not described: hosts would warn of each. R,
-/// wait-free.
+/// JUCE tells hosts of parameters as properties, which they would warn of: none is described. R, wait-free.
 void dropProperties(LV2_Atom_Sequence& told, const Names& names) noexcept {
     auto* to = lv2_atom_sequence_begin(&told.body);
     for (auto* at = to; !lv2_atom_sequence_is_end(&told.body, told.atom.size, at);) {
@@ -205,8 +203,7 @@ struct Instance {
     PluginProcessor* processor = nullptr;
     bool wasDeactivated = false;
     Names names{};
-    const LV2_Atom_Sequence* events = nullptr; // of the port, which the host may connect anew before each
-                                               // block
+    const LV2_Atom_Sequence* events = nullptr; // of the port, as connected for this block
     std::shared_ptr<Lv2Controls> controls{};
     LV2_Atom_Sequence* told = nullptr;         // as events
     std::shared_ptr<UnconnectedEvents> sink{}; // for a host that does not connect that
@@ -229,8 +226,7 @@ public:
         place->handle = handle;
         if (isNew) first_ = place; // from here on it is found
     }
-    /// Of one that lives; it stays where it is, and is its caller's: LV2 has one thread at a time for each.
-    /// Wait-free.
+    /// Of one that lives; it stays, and is its caller's: LV2 has one thread at a time for each. Wait-free.
     Instance& operator[](LV2_Handle handle) noexcept {
         Place* place = first_;
         while (place->handle != handle) place = place->next;
@@ -309,8 +305,7 @@ void run(LV2_Handle handle, std::uint32_t frames) {
     if (instance.told) dropProperties(*instance.told, instance.names);
 }
 
-// What is active is prepared: the scene starts at its seed, as in the other formats. The first time JUCE has
-// done so.
+// What is active is prepared, at first by JUCE: the scene starts at its seed, as in the other formats.
 void activate(LV2_Handle handle) {
     auto& instance = instances()[handle];
     auto* const processor = instance.processor;

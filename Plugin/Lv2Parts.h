@@ -29,8 +29,7 @@ Lv2Parts lv2PartsOf(void* instance) noexcept;
 
 /// A port counts where its value is another than it was: in the block before, or, once a state was restored,
 /// when that was saved. So the last change stays, whether the host made it by the port, or the window, a
-/// controller or an event: hosts that save ports beside a state bring back what they held then, others leave
-/// them as they are.
+/// controller or an event: hosts that save ports beside a state restore what they held then, others do not.
 class Lv2Controls {
 public:
     /// One for each parameter, and behind them `lv2:enabled`, which is bypass the other way round.

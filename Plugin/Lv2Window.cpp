@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// LV2's entry of the window: JUCE's (which CMake compiles as juceLv2UiDescriptor), and what it leaves out.
-// Where the window, a controller or an event moves a parameter, its port is written, so that the host's own
-// slider follows.
+// LV2's entry of the window: JUCE's (which CMake compiles as juceLv2UiDescriptor), and what it leaves out:
+// the port of a parameter that something else moved is written, so that the host's own slider follows.
 #ifdef PHYSVIB_LV2_ENTRY
 #include "Lv2Parts.h"
 #include <cstring>

@@ -12,12 +12,10 @@ namespace physvib {
 /// own materials, each material for all that is felt, then each note rule.
 std::vector<std::vector<Action>> actionGroups(const PluginState& state);
 
-/// What the parameters make of notes, at one frame. As it is here, they sound as the preset has them, to the
-/// bit.
+/// What the parameters make of notes, at one frame. As it is here, they sound as in the preset, to the bit.
 struct NoteKnobs {
     double decay = 1.0, release = 1.0, velocityCurve = 1.0; ///< factors of times, and of an exponent
-    int hold = 0, placement = 0, bend = 0, material = 0;    ///< places in the parameters' lists; 0: the
-                                                            ///< preset's
+    int hold = 0, placement = 0, bend = 0, material = 0;    ///< places in lists; 0: the preset's
     bool operator==(const NoteKnobs&) const = default;
 };
 
@@ -37,8 +35,7 @@ NoteVoice voiceBy(NoteVoice voice, const NoteKnobs& knobs) noexcept;
 class MidiTable {
 public:
     MidiTable() = default;
-    /// Materials that never vibrate strike nothing. A note's own frequency is its pitch, moved by octaves to
-    /// where it is felt, 20 to 500 Hz.
+    /// What never vibrates strikes nothing. Pitches move by octaves to where they are felt, 20 to 500 Hz.
     explicit MidiTable(const PluginState& state);
 
     /// The strike of a note, its amplitude 1; frequency 0 if it strikes nothing.
@@ -64,8 +61,7 @@ public:
     const NoteVoice& voice() const noexcept { return voice_; }
     /// The group of actions that a note performs; -1: none, it strikes.
     int groupOf(int note) const noexcept { return groups_[static_cast<std::size_t>(note & 127)]; }
-    /// The group that gives what is felt the material of that number of the parameter (0: the scene's own);
-    /// -1: none.
+    /// The group that gives what is felt that material of the parameter (0: the scene's own); -1: none.
     int groupOfMaterial(int choice) const noexcept { return choice <= materials_ ? choice : -1; }
     /// -1: none.
     int parameterOf(int controller) const noexcept {

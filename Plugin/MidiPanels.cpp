@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws the list of MIDI rules, with a form for each kind of rule. The reader of states checks what is
-// entered.
+// Draws the list of MIDI rules, with a form for each kind; the reader of states checks what is entered.
 #include "EditorPanels.h"
 #include "EditorParts.h"
 #include <algorithm>
@@ -55,11 +54,7 @@ MidiPanel::MidiPanel(MixHands hands)
     title_.setFont(text::font(text::medium, juce::Font::bold));
     hint_.setFont(text::font(text::small));
     list_.setRowHeight(rowPixels);
-    addNote_.onClick = [this] {
-        NoteRule rule;
-        rule.note = 60;
-        askNote(-1, rule);
-    };
+    addNote_.onClick = [this] { askNote(-1, {.note = 60}); };
     addController_.onClick = [this] { askController(-1, {1, std::string{rowOf(Parameter::level).id}}); };
     change_.onClick = [this] { change(list_.getSelectedRow()); };
     remove_.onClick = [this] { remove(list_.getSelectedRow()); };
@@ -91,13 +86,18 @@ void MidiPanel::showChoice() {
     remove_.setEnabled(isChosen);
 }
 
+// What moves it, and what that does.
+std::pair<juce::String, juce::String> MidiPanel::wordsOfRow(int row) const {
+    const auto i = static_cast<std::size_t>(row);
+    if (isNote(row)) return {noteName(state_.notes[i].note), wordsOf(state_.notes[i], state_.scene)};
+    const auto& rule = state_.controllers[i - state_.notes.size()];
+    return {"CC " + juce::String{rule.controller}, wordsOf(rule)};
+}
+
 juce::String MidiPanel::getNameForRow(int row) {
     if (row < 0 || row >= getNumRows()) return {};
-    if (isNote(row))
-        return noteName(state_.notes[static_cast<std::size_t>(row)].note) + " " +
-               wordsOf(state_.notes[static_cast<std::size_t>(row)], state_.scene);
-    const auto& rule = state_.controllers[static_cast<std::size_t>(row) - state_.notes.size()];
-    return "CC " + juce::String{rule.controller} + " " + wordsOf(rule);
+    const auto [key, what] = wordsOfRow(row);
+    return key + " " + what;
 }
 
 void MidiPanel::paintListBoxItem(int row, juce::Graphics& g, int width, int height, bool isSelected) {
@@ -107,18 +107,13 @@ void MidiPanel::paintListBoxItem(int row, juce::Graphics& g, int width, int heig
         g.fillRect(0, 0, width, height);
     }
     auto area = juce::Rectangle<int>{width, height}.reduced(10, 0);
-    const auto i = static_cast<std::size_t>(row);
+    const auto [key, what] = wordsOfRow(row);
     g.setFont(text::font(text::medium, juce::Font::bold));
     g.setColour(shade(*this, Shade::accent));
-    const auto key = isNote(row)
-                         ? noteName(state_.notes[i].note)
-                         : "CC " + juce::String{state_.controllers[i - state_.notes.size()].controller};
     g.drawText(key, area.removeFromLeft(64), juce::Justification::centredLeft, false);
     g.setFont(text::font(text::medium));
     g.setColour(shade(*this, Shade::text));
-    g.drawText(isNote(row) ? wordsOf(state_.notes[i], state_.scene)
-                           : wordsOf(state_.controllers[i - state_.notes.size()]),
-               area, juce::Justification::centredLeft, true);
+    g.drawText(what, area, juce::Justification::centredLeft, true);
 }
 
 void MidiPanel::change(int row) {
@@ -191,17 +186,14 @@ void MidiPanel::askNote(int row, NoteRule rule) {
 }
 
 void MidiPanel::askController(int row, ControllerRule rule) {
-    juce::StringArray names;
-    for (const auto& parameter : allParameters()) names.add(words(parameter.name));
     auto& form = newForm("A controller");
     form.addTextEditor("controller", juce::String{rule.controller}, "Controller, 0 to 119");
-    addChoice(form, "parameter", names, parameterOfId(rule.parameter), "Parameter that it moves");
+    addChoice(form, "parameter", namesOf(allParameters(), &ParameterRow::name), parameterOfId(rule.parameter),
+              "Parameter that it moves");
     ask([this, row, rule](juce::AlertWindow& filled) mutable {
         rule.controller = filled.getTextEditorContents("controller").getIntValue();
-        rule.parameter =
-            allParameters()[static_cast<std::size_t>(
-                                filled.getComboBoxComponent("parameter")->getSelectedItemIndex())]
-                .id;
+        const int chosen = filled.getComboBoxComponent("parameter")->getSelectedItemIndex();
+        rule.parameter = rowOf(static_cast<Parameter>(chosen)).id;
         keep(row, rule);
     });
 }
@@ -266,20 +258,17 @@ bool doesNothing(int note, const MidiTable& table, const PluginState& state, con
 } // namespace
 
 juce::String wordsOfKey(int note, const MidiTable& table, const PluginState& state, const NoteKnobs& knobs) {
-    const juce::String name = juce::MidiMessage::getMidiNoteName(note, true, true, 4) + ": ";
+    const juce::String name = noteName(note) + ": ";
     const NoteRule* const rule = ruleOf(note, state);
     if (rule && table.groupOf(note) >= 0) return name + wordsOf(*rule, state.scene);
     if (doesNothing(note, table, state, knobs))
         return name + "silent, as the scene has no material that vibrates";
     const CollisionEvent sound = table.strikeOf(note, knobs, state.layout.geometry);
     const auto percent = [](double part, double whole) { return number(100.0 * part / whole, 0) + " %"; };
-    juce::String text =
-        name +
-        (rule ? words(state.scene.materials[static_cast<std::size_t>(rule->material)].name) + ", "
-              : juce::String{}) +
-        number(sound.frequencyHz, 0) + " Hz, ";
-    text << percent(sound.x, table.fieldWidthMetres()) << " from the left, "
-         << percent(sound.y, table.fieldHeightMetres()) << " from below";
+    juce::String text = name;
+    if (rule) text << words(state.scene.materials[static_cast<std::size_t>(rule->material)].name) << ", ";
+    text << number(sound.frequencyHz, 0) << " Hz, " << percent(sound.x, table.fieldWidthMetres())
+         << " from the left, " << percent(sound.y, table.fieldHeightMetres()) << " from below";
     return table.isHeld(note, knobs) ? text + ", as long as it is held" : text;
 }
 
@@ -360,8 +349,7 @@ void KeyboardPanel::paintKey(juce::Graphics& g, int note) const {
     if (note % 12 != 0) return;
     g.setColour(juce::Colour{0xff5a5d66});
     g.setFont(text::font(10.0f));
-    g.drawText(juce::MidiMessage::getMidiNoteName(note, true, true, 4),
-               key.withTrimmedBottom(6.0f).removeFromBottom(12.0f).expanded(4.0f, 0.0f),
+    g.drawText(noteName(note), key.withTrimmedBottom(6.0f).removeFromBottom(12.0f).expanded(4.0f, 0.0f),
                juce::Justification::centred, false);
 }
 

@@ -68,15 +68,9 @@ void MixStrip::askActuator() {
     for (const auto& profile : builtInActuators())
         menu.addItem(words(profile.name), true, enchanter_.actuator == profile.name,
                      [this, name = profile.name] { chooseActuator(name); });
-    menu.addItem(juce::String::fromUTF8("Open a profile\xe2\x80\xa6"), [this] {
-        chooser_ =
-            std::make_unique<juce::FileChooser>("An actuator's profile", juce::File{}, "*.json", false);
-        chooser_->launchAsync(juce::FileBrowserComponent::openMode |
-                                  juce::FileBrowserComponent::canSelectFiles,
-                              [this](const juce::FileChooser& chooser) {
-                                  if (const auto file = chooser.getResult(); file != juce::File{})
-                                      chooseActuator(file.getFullPathName().toStdString());
-                              });
+    menu.addItem(words("Open a profile\xe2\x80\xa6"), [this] {
+        askFile(chooser_, "An actuator's profile", toOpen,
+                [this](const juce::File& file) { chooseActuator(file.getFullPathName().toStdString()); });
     });
     menu.addSeparator();
     const auto profile = findActuator(enchanter_.actuator);

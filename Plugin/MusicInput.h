@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Music that comes in: its low frequencies for the actuators, delayed by the play-out latency, and its
-// onsets, which trigger strikes.
+// Music that comes in: its low frequencies for the actuators, delayed by L, and its onsets, which strike.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
 #include "Core/EnchanterLayout.h"
@@ -23,19 +22,16 @@ namespace physvib {
 /// all of the left at the layout's left edge, all of the right at its right edge, a line between.
 class MusicDelay final : public AddedSamples {
 public:
-    /// `channels` at least as many as the layout has; nothing older than `longestFrames` is asked for. Any
-    /// thread but R.
+    /// At least the layout's `channels`; nothing older than `longestFrames` is read. Any thread but R.
     MusicDelay(const EnchanterLayout& layout, int channels, int sampleRateHz, std::int64_t longestFrames);
 
     /// As at first. Any thread but R, while nobody renders.
     void reset() noexcept;
 
-    /// What is heard from the renderer's frame `at` on; what lies between that and the last is silence. R,
-    /// wait-free.
+    /// What is heard from the renderer's frame `at` on, after silence since the last. R, wait-free.
     void write(std::int64_t at, const float* left, const float* right, int frames) noexcept;
 
-    /// Frames from `from` to `until`, and for at least `shortestPauseSeconds`, are not played, with ramps of
-    /// 10 ms. R, wait-free.
+    /// Not played, with ramps of 10 ms: `from` to `until`, at least `shortestPauseSeconds`. R, wait-free.
     void silence(std::int64_t from, std::int64_t until) noexcept;
     static constexpr double shortestPauseSeconds = 0.05; // longer than both ramps: it is felt
 
@@ -61,14 +57,12 @@ private:
     std::int64_t end_ = 0, silentFrom_ = 0, silentUntil_ = 0;
 };
 
-/// What a take feels of music depends on the samples since its beginning alone: the filters begin anew with
-/// it, and the level rises from 0.
+/// Depends on the samples since a take's beginning alone: with it filters begin anew, and the level at 0.
 class MusicInput {
 public:
     static constexpr FrequencyBand band{20.0, 400.0}; ///< what vibration modules render and skin feels
 
-    /// `channels` of the process block, from its first one on, are the side chain; 0: it is off. M, while
-    /// nobody renders.
+    /// The first `channels` of the process block are the side chain; 0: it is off. M, while nobody renders.
     void prepare(int sampleRateHz, int blockFrames, int channels) {
         channels_ = channels;
         rateHz_ = sampleRateHz;
@@ -85,8 +79,7 @@ public:
     }
 
     /// The next frames, at most a block, from `first` on, into `delay` from its frame `at` on. `gain` and
-    /// `areApart` (left and right on their own sides; else both summed) are reached in ramps of 10 ms. R,
-    /// wait-free.
+    /// `areApart` (each side for itself; else both summed) are reached in ramps of 10 ms. R, wait-free.
     void hear(const juce::AudioBuffer<float>& buffer, int first, int frames, double gain, bool areApart,
               MusicDelay& delay, std::int64_t at) noexcept {
         if (channels_ == 0 || frames <= 0 || buffer.getNumChannels() < channels_) return;
@@ -125,8 +118,7 @@ private:
 /// whether anybody wants beats or not: what a take hears depends on its samples alone.
 class BeatInput {
 public:
-    /// `channels` of the process block, from its first one on, are the side chain; 0: it is off. M, while
-    /// nobody renders.
+    /// The first `channels` of the process block are the side chain; 0: it is off. M, while nobody renders.
     void prepare(int sampleRateHz, int blockFrames, int channels) {
         channels_ = channels;
         rateHz_ = sampleRateHz;
@@ -136,8 +128,7 @@ public:
         heard_ = 0;
     }
 
-    /// How long after an onset it is known at the latest; 0 while the side chain is off. Any thread after
-    /// prepare.
+    /// How long after an onset it is known at most; 0: the side chain is off. Any thread after prepare.
     int delayFrames() const noexcept { return detector_ ? static_cast<int>(detector_->delayFrames()) : 0; }
     double delaySeconds() const noexcept { return static_cast<double>(delayFrames()) / rateHz_; }
 

@@ -52,8 +52,7 @@ struct ParameterRow {
     Parameter parameter; ///< its number, which is its place in the table
     std::string_view id; ///< never changes: sessions of hosts hold on to it
     std::string_view name;
-    std::string_view shortName; ///< 8 letters at most, for small displays; its first four tell it from the
-                                ///< others
+    std::string_view shortName; ///< 8 letters at most, for small displays; the first four differ from others'
     std::string_view unit;
     double least = 0.0;
     double most = 1.0;
@@ -196,8 +195,7 @@ int parameterOfId(std::string_view id) noexcept;
 double normalised(const ParameterRow& row, double value) noexcept;
 double denormalised(const ParameterRow& row, double normal) noexcept;
 
-/// "-12.0 dB", "energy", "on"; and back, with or without the unit. What cannot be read is the default. Any
-/// thread.
+/// "-12.0 dB", "energy", "on"; and back, with or without the unit, else the default. Any thread.
 std::string valueText(const ParameterRow& row, double value);
 double valueOf(const ParameterRow& row, std::string_view text);
 

@@ -151,10 +151,7 @@ PluginEditor::PluginEditor(PluginProcessor& plugin)
     setResizable(true, true);
     setResizeLimits(minWidth, minHeight, 2400, 1600);
     const bool isKept = state_.editorWidth >= minWidth && state_.editorHeight >= minHeight;
-    if (isKept)
-        setSize(state_.editorWidth, state_.editorHeight);
-    else
-        setSize(firstWidth, firstHeight);
+    setSize(isKept ? state_.editorWidth : firstWidth, isKept ? state_.editorHeight : firstHeight);
     startTimerHz(framesPerSecond);
 }
 
@@ -260,10 +257,6 @@ void PluginEditor::fillChoices() {
     midi_.onClick = [this] { showMidi(!midiPanel_.isVisible()); };
 }
 
-// Only the button lifts: a host may close this window by the same Esc. It is no parameter's, or a track would
-// be silent in the next session.
-void PluginEditor::silence() { plugin_.stop(true); }
-
 // A list, a menu, or a value that is being typed; a dialog is closed and all is silent at once.
 bool PluginEditor::closesFirst() {
     const auto* const modal = juce::Component::getCurrentlyModalComponent();
@@ -282,8 +275,7 @@ void PluginEditor::listenAround() {
         (around_ = around)->addKeyListener(this);
 }
 
-// A value's box gets the keys also before it has the keyboard (refresh). While anything is open, none is the
-// host's.
+// A value's box gets keys before it has the keyboard (refresh). While anything is open, the host gets none.
 bool PluginEditor::keyPressed(const juce::KeyPress& key) {
     if (auto* const box = openBox()) return box->keyPressed(key);
     return juce::Component::getCurrentlyModalComponent() == nullptr &&
@@ -355,8 +347,7 @@ void PluginEditor::stateChanged() {
     state_ = plugin_.state();
     // a scene or layout of one's own is its name only
     const auto select = [](juce::ComboBox& box, const std::string& name) {
-        const auto shown = words(name);
-        box.setText(shown.isEmpty() ? juce::String{"(no name)"} : shown, juce::dontSendNotification);
+        box.setText(words(name.empty() ? "(no name)" : name), juce::dontSendNotification);
     };
     select(scene_, shownName(state_.scene.name));
     select(layout_, state_.layout.name);
@@ -371,9 +362,7 @@ void PluginEditor::stateChanged() {
         c->setVisible(moves);
     const auto value = [this](Parameter p) { return plugin_.parameter(p).value(); };
     world_.show(state_.scene);
-    world_.show(state_.layout,
-                {state_.layout.geometry, lawOf(value(Parameter::law)), value(Parameter::exponent),
-                 state_.scene.fieldWidthMetres, state_.scene.fieldHeightMetres});
+    world_.show(state_.layout, pannerOf(state_, lawOf(value(Parameter::law)), value(Parameter::exponent)));
     mix_.take(state_);
     nameMaterials();
     readKnobs(); // places all anew: there may be more or fewer strips

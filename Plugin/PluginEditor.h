@@ -93,15 +93,10 @@ private:
     void showHint(const juce::String& text);
     void fillChoices();
     void nameMaterials();
-    void askFile();
-    void askSave(const juce::String& title, const juce::File& initial, const juce::String& endings,
-                 void (PluginEditor::*save)(const juce::File&));
     void showFiles();
     void showMenu(HostParameter& parameter, const std::function<void()>& type = {});
-    void forgetController(const std::string& parameter);
     void followLearning();
-    void silence();
-    bool closesFirst();
+    static bool closesFirst();
     void listenAround();
     juce::TextEditor* openBox() const; // in which a value is typed; null: none
     void fillPresets();
@@ -128,8 +123,7 @@ private:
     std::vector<Group> groups_;
     std::vector<ParameterControl*> materials_;       // lists of materials
     NoteKnobs knobs_;                                // as they are shown
-    std::uint64_t aheadShown_ = 0, aheadBefore_ = 0; // blocks that the host had to wait for, at the last two
-                                                     // pictures
+    std::uint64_t aheadShown_ = 0, aheadBefore_ = 0; // blocks that the host waited for, at two pictures
     std::unique_ptr<juce::FileChooser> chooser_;
     std::vector<juce::File> presets_; // one's own, as they are listed
     int learning_ = -1;               // a parameter; -1: none
@@ -137,7 +131,9 @@ private:
     juce::String news_;               // of what was opened or asked for; until the next edit
     std::uint64_t shown_ = 0;         // the processor's count of states
     PluginState state_;
-    EmergencyStop stop_{*this, [this] { silence(); }, [this] { return closesFirst(); }};
+    // Only the button lifts: a host may close this window by the same Esc. It is no parameter's, or a track
+    // would be silent in the next session.
+    EmergencyStop stop_{*this, [this] { plugin_.stop(true); }, closesFirst};
 };
 
 } // namespace physvib

@@ -20,24 +20,6 @@ namespace physvib {
 
 namespace {
 
-void setParameter(PluginState& state, Parameter which, double value) {
-    const auto& row = rowOf(which);
-    const auto found =
-        std::ranges::find_if(state.parameters, [&row](const auto& p) { return p.first == row.id; });
-    auto& kept =
-        found == state.parameters.end() ? state.parameters.emplace_back(std::string{row.id}, 0.0) : *found;
-    kept.second = std::clamp(value, row.least, row.most);
-}
-
-/// In the unit of that parameter, as a state has it or as it comes.
-double valueIn(const PluginState& state, Parameter which) {
-    const auto& row = rowOf(which);
-    const auto found =
-        std::ranges::find(state.parameters, row.id, &std::pair<std::string, ParameterValue>::first);
-    return found == state.parameters.end() ? row.initial
-                                           : valueOfState(row, found->second).value_or(row.initial);
-}
-
 /// As the person at this instance has left it; enchanter j leaves by channel j.
 DeskLimits limitsOf(const PluginState& state) {
     DeskLimits limits{valueIn(state, Parameter::level), state.strips};
@@ -209,17 +191,23 @@ void PluginEditor::fillPresets() {
 
 void PluginEditor::showFiles() {
     juce::PopupMenu menu;
-    menu.addItem(juce::String::fromUTF8("Open\xe2\x80\xa6"), [this] { askFile(); });
-    menu.addItem(juce::String::fromUTF8("Save as a preset\xe2\x80\xa6"), [this] {
-        askSave("A preset", presetFolder().getChildFile(words(state_.scene.name) + ".json"), "*.json",
-                &PluginEditor::savePresetAs);
+    menu.addItem(words("Open\xe2\x80\xa6"), [this] {
+        askFile(chooser_, "A preset, a scene, a layout or a session", toOpen,
+                [this](const juce::File& file) { open(file); });
     });
-    menu.addItem(
-        juce::String::fromUTF8("Export what was felt\xe2\x80\xa6"), plugin_.felt().areThere(), false, [this] {
-            askSave("MIDI, a list of events or a haptic file: " + words(listed(feltEndings())),
-                    juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile("felt.mid"),
-                    "*" + words(joined(feltEndings(), ";*")), &PluginEditor::exportFeltAs);
-        });
+    menu.addItem(words("Save as a preset\xe2\x80\xa6"), [this] {
+        (void)presetFolder().createDirectory(); // or the chooser begins elsewhere
+        askFile(
+            chooser_, "A preset", toSave, [this](const juce::File& file) { savePresetAs(file); },
+            presetFolder().getChildFile(words(state_.scene.name) + ".json"));
+    });
+    menu.addItem(words("Export what was felt\xe2\x80\xa6"), plugin_.felt().areThere(), false, [this] {
+        askFile(
+            chooser_, "MIDI, a list of events or a haptic file: " + words(listed(feltEndings())), toSave,
+            [this](const juce::File& file) { exportFeltAs(file); },
+            juce::File::getSpecialLocation(juce::File::userHomeDirectory).getChildFile("felt.mid"),
+            "*" + words(joined(feltEndings(), ";*")));
+    });
     menu.addSeparator();
     using Step = PluginProcessor::Step;
     const auto addStep = [&](const juce::String& words, Step step) {
@@ -245,19 +233,6 @@ void PluginEditor::showFiles() {
 void PluginEditor::go(PluginProcessor::Step step) {
     news_.clear();
     plugin_.go(step);
-}
-
-void PluginEditor::askSave(const juce::String& title, const juce::File& initial, const juce::String& endings,
-                           void (PluginEditor::*save)(const juce::File&)) {
-    // or the chooser begins elsewhere
-    if (endings == "*.json") (void)initial.getParentDirectory().createDirectory();
-    chooser_ = std::make_unique<juce::FileChooser>(title, initial, endings, false);
-    using Browser = juce::FileBrowserComponent;
-    chooser_->launchAsync(Browser::saveMode | Browser::canSelectFiles | Browser::warnAboutOverwriting,
-                          [this, save](const juce::FileChooser& chooser) {
-                              if (const auto file = chooser.getResult(); file != juce::File{})
-                                  (this->*save)(file);
-                          });
 }
 
 void PluginEditor::savePresetAs(const juce::File& file) {
@@ -300,8 +275,11 @@ void PluginEditor::showMenu(HostParameter& parameter, const std::function<void()
     const std::string id{parameter.row().id};
     for (const auto& rule : state_.controllers)
         if (rule.parameter == id)
-            menu.addItem("Forget controller " + juce::String{rule.controller},
-                         [this, id] { forgetController(id); });
+            menu.addItem("Forget controller " + juce::String{rule.controller}, [this, id] {
+                edit([&id](PluginState& s) {
+                    std::erase_if(s.controllers, [&id](const auto& other) { return other.parameter == id; });
+                });
+            });
     menu.setLookAndFeel(&look_);
     menu.showMenuAsync(
         juce::PopupMenu::Options{}.withTargetComponent(this).withMousePosition().withDeletionCheck(*this));
@@ -311,13 +289,6 @@ void PluginEditor::learn(Parameter which) {
     learning_ = static_cast<int>(which);
     learnsAfter_ = plugin_.lastController();
     report("Move a controller: it will move " + words(rowOf(which).name));
-}
-
-void PluginEditor::forgetController(const std::string& parameter) {
-    edit([&parameter](PluginState& s) {
-        std::erase_if(s.controllers,
-                      [&parameter](const ControllerRule& rule) { return rule.parameter == parameter; });
-    });
 }
 
 // A controller moves one parameter, and a parameter learned anew has one controller.
@@ -333,15 +304,6 @@ void PluginEditor::followLearning() {
         s.controllers.push_back({controller, std::string{row.id}});
     });
     report("Controller " + juce::String{controller} + " moves " + words(row.name) + " over its whole range");
-}
-
-void PluginEditor::askFile() {
-    chooser_ = std::make_unique<juce::FileChooser>("A preset, a scene, a layout or a session", juce::File{},
-                                                   "*.json", false);
-    chooser_->launchAsync(juce::FileBrowserComponent::openMode | juce::FileBrowserComponent::canSelectFiles,
-                          [this](const juce::FileChooser& chooser) {
-                              if (const auto file = chooser.getResult(); file != juce::File{}) open(file);
-                          });
 }
 
 void PluginEditor::open(const juce::File& file) {

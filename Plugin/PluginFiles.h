@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of the plug-in's user: scenes, layouts and sessions opened as the state of an instance, presets, and
-// the theme.
+// Files of the plug-in's user: scenes, layouts and sessions as an instance's state, presets, and the theme.
 #pragma once
 #include "Host/Views/Look.h"
 #include "Io/Result.h"
@@ -14,8 +13,7 @@ namespace physvib {
 
 struct OpenedFile {
     PluginState state;
-    std::string note; ///< a line for people on what of the file is not played here, or lowered; empty:
-                      ///< nothing
+    std::string note; ///< a line for people: what of the file is not played here, or lowered; or empty
 };
 
 /// `state` with the scene or the layout of that file, or as a saved session left its desk, no louder than
@@ -32,8 +30,7 @@ inline juce::File presetFolder() {
 /// Its presets by their names. M only.
 std::vector<juce::File> presetFiles(const juce::File& folder);
 
-/// Writes `state` without the window's size, and makes the folder if it is missing; empty, or one line with
-/// the reason. M only.
+/// Writes `state` without the window's size, and its folder; empty, or one line with the reason. M only.
 std::string savePreset(PluginState state, const juce::File& file);
 
 /// What a person chose for the windows of all instances, in `PhysVib/look`; dark at first. M only.

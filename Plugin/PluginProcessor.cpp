@@ -47,23 +47,20 @@ void PluginProcessor::addParameters() {
         parameters_[i] = new HostParameter{allParameters()[i]};
         parameters_[i]->addListener(this);
     }
-    const auto isAfterBypass = [](const ParameterGroup& group) {
-        return group.parameters.front() > Parameter::bypass;
+    const auto addGroups = [this](bool areAfterBypass) {
+        for (const auto& group : parameterGroups()) {
+            if ((group.parameters.front() > Parameter::bypass) != areAfterBypass) continue;
+            auto shown = std::make_unique<juce::AudioProcessorParameterGroup>(
+                juce::String{group.id.data()}, juce::String{group.name.data()}, "/");
+            for (const auto which : group.parameters)
+                shown->addChild(std::unique_ptr<HostParameter>{&parameter(which)});
+            addParameterGroup(std::move(shown));
+        }
     };
     addParameter(&parameter(Parameter::level));
-    for (const auto& group : parameterGroups())
-        if (!isAfterBypass(group)) addGroup(group);
+    addGroups(false);
     addParameter(&parameter(Parameter::bypass));
-    for (const auto& group : parameterGroups())
-        if (isAfterBypass(group)) addGroup(group);
-}
-
-void PluginProcessor::addGroup(const ParameterGroup& group) {
-    auto shown = std::make_unique<juce::AudioProcessorParameterGroup>(juce::String{group.id.data()},
-                                                                      juce::String{group.name.data()}, "/");
-    for (const auto which : group.parameters)
-        shown->addChild(std::unique_ptr<HostParameter>{&parameter(which)});
-    addParameterGroup(std::move(shown));
+    addGroups(true);
 }
 
 PluginProcessor::~PluginProcessor() {
@@ -96,8 +93,7 @@ bool PluginProcessor::exchangeFor(PluginState state, bool followsWidth) {
     return true;
 }
 
-// A state that comes meanwhile on another thread is kept: either it is there already, and is not fitted, or
-// it comes after.
+// A state that comes meanwhile on another thread is kept: it is there and not fitted, or comes after.
 void PluginProcessor::fitToWidth() {
     const std::lock_guard one{applyMutex_};
     auto fitting = state();
@@ -143,9 +139,7 @@ void PluginProcessor::go(Step step) {
     {
         auto now = state();
         const std::lock_guard lock{mutex_};
-        there = step == Step::undo   ? history_.undo(std::move(now))
-                : step == Step::redo ? history_.redo(std::move(now))
-                                     : history_.exchange(std::move(now));
+        there = history_.go(step, std::move(now));
     }
     if (!there) return;
     // SILENCE is no edit: only a hand on its button lifts it
@@ -155,7 +149,7 @@ void PluginProcessor::go(Step step) {
 
 bool PluginProcessor::can(Step step) const {
     const std::lock_guard lock{mutex_};
-    return step == Step::undo ? history_.canUndo() : step == Step::redo ? history_.canRedo() : true;
+    return history_.can(step);
 }
 
 bool PluginProcessor::isAtB() const {
@@ -240,8 +234,7 @@ bool PluginProcessor::keepsRefused() const {
     return !refused_.isEmpty();
 }
 
-// Only a hand on our editor begins a gesture, automation does not. Who silences what they did not expect
-// edits nothing.
+// Only a hand on our editor begins a gesture. Who silences what they did not expect edits nothing.
 void PluginProcessor::parameterGestureChanged(int which, bool begins) {
     if (!begins || which == static_cast<int>(Parameter::bypass)) return;
     auto before = state();

@@ -28,8 +28,7 @@ namespace physvib {
 /// controller or the host may have moved them since.
 using TouchedParameters = std::bitset<parameterCount>;
 
-/// One thread at a time. A and B have steps of their own. States hold whole scenes, so only the newest steps
-/// are kept.
+/// One thread at a time. A and B have their own steps: whole scenes, so only the newest are kept.
 class EditHistory {
 public:
     static constexpr std::size_t most = 30;
@@ -44,6 +43,7 @@ public:
         part, ///< of what may come many times in a row
         whole ///< a step of its own
     };
+    enum class Way { undo, redo, exchange };
 
     /// What was there before an edit.
     void add(PluginState before, TouchedParameters touched, Edit edit = Edit::part,
@@ -60,21 +60,20 @@ public:
         if (here_.undo.size() > most) here_.undo.erase(here_.undo.begin());
     }
 
-    bool canUndo() const noexcept { return !here_.undo.empty(); }
-    bool canRedo() const noexcept { return !here_.redo.empty(); }
+    bool can(Way way) const noexcept {
+        return way == Way::exchange || !(way == Way::undo ? here_.undo : here_.redo).empty();
+    }
     bool isAtB() const noexcept { return isAtB_; }
 
-    /// The state one step back or forth from `now`; none: there is none.
-    std::optional<Step> undo(PluginState now) { return move(here_.undo, here_.redo, std::move(now)); }
-    std::optional<Step> redo(PluginState now) { return move(here_.redo, here_.undo, std::move(now)); }
-
-    /// The other one of A and B; at first both are the same. They differ in the parameters that any step was
-    /// about.
-    Step exchange(PluginState now) {
+    /// The state one step back or forth from `now` (none: there is none), or the other one of A and B. At
+    /// first both are the same; they differ in the parameters that any step was about.
+    std::optional<Step> go(Way way, PluginState now) {
+        if (way == Way::undo) return move(here_.undo, here_.redo, std::move(now));
+        if (way == Way::redo) return move(here_.redo, here_.undo, std::move(now));
         isAtB_ = !isAtB_;
         last_ = {};
         std::swap(here_, there_);
-        return {std::exchange(other_, now).value_or(now), touched_};
+        return Step{std::exchange(other_, now).value_or(now), touched_};
     }
 
 private:
@@ -104,11 +103,9 @@ public:
     PluginProcessor(juce::String name, const BusPlan& plan);
     ~PluginProcessor() override;
 
-    /// What plays from now on. False and untouched, with a line in `trouble()`, if it cannot be played. Any
-    /// thread but R.
+    /// What plays from now on. False: it cannot, as `trouble()` says, and nothing changes. Any thread but R.
     bool apply(PluginState state);
-    /// The same for an edit by a person: the host marks its session as changed, and what plays goes on if it
-    /// can (isSameTake). M.
+    /// The same for an edit by hand: the host marks its session changed; what plays goes on if isSameTake. M.
     bool edit(PluginState state);
     /// An edit that sets the parameters as well. M.
     void open(PluginState state);
@@ -121,9 +118,8 @@ public:
         return knobsBy(
             [this](Parameter which) { return parameters_[static_cast<std::size_t>(which)]->value(); });
     }
-    /// What a person changed, one step back or forth, parameters of the window too; the other one of A and B.
-    /// M.
-    enum class Step { undo, redo, exchange };
+    /// What a person changed, one step back or forth, with the window's parameters; the other of A and B. M.
+    using Step = EditHistory::Way;
     void go(Step step);
     bool can(Step step) const;
     bool isAtB() const;
@@ -138,12 +134,10 @@ public:
     /// The host's; at one that no renderer takes all is silent, and trouble() says so.
     int preparedRateHz() const noexcept { return static_cast<int>(sampleRateHz_.load()); }
 
-    /// How many frames a block usually has where a host announces far more (LV2); 0: as announced. M, before
-    /// prepareToPlay.
+    /// Frames of a usual block if a host announces far more (LV2); 0: as announced. M, before prepareToPlay.
     void expectBlocksOf(int frames) noexcept { usualBlockFrames_ = frames; }
 
-    /// What the host says of parameters within the coming block; it outlives that. Parameters without points
-    /// have their value all block long. R.
+    /// What the host says of parameters in the coming block, which it outlives; without points they stay. R.
     void expectPoints(PointSource& source) noexcept { source_ = &source; }
 
     /// What the host says of notes within it, beside its messages of MIDI; it outlives that block. R.
@@ -155,8 +149,7 @@ public:
     /// A key of the window: with a velocity it is struck in the next block, 0 lets it go. M, one writer.
     void play(int note, int velocity) noexcept { keys_.push({note, velocity}); }
 
-    /// Silence until it is lifted, by Esc in the window: no parameter, so that no session keeps it. Any
-    /// thread.
+    /// Silence until it is lifted, by Esc in the window: no parameter, no session keeps it. Any thread.
     void stop(bool isStopped) noexcept { isStopped_.store(isStopped, std::memory_order_relaxed); }
     bool isStopped() const noexcept { return isStopped_.load(std::memory_order_relaxed); }
 
@@ -178,8 +171,7 @@ public:
     }
     Takes& takes() noexcept { return takes_; }
     ChannelMeters meters() noexcept { return meters_.read(); } ///< one reader
-    /// Messages that a host sent for frames behind their block, which were played at its last one. Any
-    /// thread.
+    /// Messages for frames behind their block, which were played at its last one. Any thread.
     std::uint64_t displacedMessages() const noexcept { return displaced_; }
 
     const juce::String getName() const override { return name_; }
@@ -188,8 +180,14 @@ public:
     }
     void prepareToPlay(double sampleRateHz, int blockFrames) override;
     void releaseResources() override;
-    void processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
-    void processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override;
+    void processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override {
+        render(buffer, midi, false);
+        midi.clear();
+    }
+    void processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) override {
+        render(buffer, midi, true);
+        midi.clear();
+    }
     using juce::AudioProcessor::processBlock;
     using juce::AudioProcessor::processBlockBypassed;
     /// None for LV2: its wrapper writes `lv2:enabled` over it in every block, and tells the host so from the
@@ -198,9 +196,7 @@ public:
         return wrapperType == wrapperType_LV2 ? nullptr
                                               : parameters_[static_cast<std::size_t>(Parameter::bypass)];
     }
-    double getTailLengthSeconds() const override {
-        return tailSeconds_;
-    } ///< with the knobs as they were told
+    double getTailLengthSeconds() const override { return tailSeconds_; } ///< with the knobs of tailKnobs_
     bool acceptsMidi() const override { return true; }
     bool producesMidi() const override { return false; }
     bool supportsMPE() const override { return true; }
@@ -219,7 +215,6 @@ public:
 
 private:
     static BusesProperties propertiesOf(const BusPlan& plan);
-    void addGroup(const ParameterGroup& group);
     void addParameters();
     void prepareGuard(int rate);
     static constexpr int tellsEveryMs = 50, sleepsMs = 2000; ///< while blocks are rendered, and while none is
@@ -253,7 +248,6 @@ private:
     void followTransport(int frames) noexcept;
     void followTempo(double seconds) noexcept;
     void forgetControls() noexcept;
-    bool hasNews(Parameter which) const noexcept;
     template <class Send>
     void send(std::initializer_list<Parameter> those, Send what) noexcept;
     template <class Hold>
@@ -283,17 +277,14 @@ private:
     const BusPlan plan_;
     std::array<HostParameter*, parameterCount> parameters_{}; // owned by AudioProcessor
 
-    mutable std::mutex mutex_; // guards what follows, up to the atomics; nobody holds it while calling the
-                               // host
+    mutable std::mutex mutex_; // guards what follows, up to the atomics; never held while the host is called
     PluginState state_;
     juce::String trouble_;
     EditHistory history_;
     juce::MemoryBlock refused_; // a chunk that is not ours to lose
     std::atomic<int> program_{0};
-    std::mutex applyMutex_; // one exchange of states at a time; taken before mutex_, and not held while the
-                            // host is told either
-    std::atomic<bool> followsWidth_{true}; // the layout is a preset's, not somebody's: it has as many
-                                           // actuators as the host has outputs
+    std::mutex applyMutex_; // one exchange of states at a time; locked before mutex_, and likewise
+    std::atomic<bool> followsWidth_{true}; // the layout is a preset's: an actuator for each output
     std::atomic<std::uint64_t> stateCount_{0};
     std::atomic<double> sampleRateHz_{0.0};
     std::atomic<double> tailSeconds_{0.0};

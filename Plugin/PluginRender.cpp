@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plug-in processor on the render thread: transport, controls, MIDI, samples. Nothing here allocates,
-// locks or waits.
+// The plug-in processor on the render thread: transport, controls, MIDI, samples; no memory, locks, waits.
 #include "Core/PortableMath.h"
 #include "PluginProcessor.h"
 #include <algorithm>
@@ -15,28 +14,10 @@ constexpr int slideController = 74; // MPE's third dimension
 constexpr int sustainPedal = 64;
 constexpr int allSoundOff = 120;
 constexpr int resetControllers = 121;
-constexpr int allNotesOff = 123; // lets held ones go; what other notes strike rings out by itself, and the
-                                 // world is no note
+constexpr int allNotesOff = 123; // lets held ones go; others ring out, and the world is no note
 constexpr float peakFallDbPerSecond = 20.0f;
 
-RenderControl controlOf(RenderControl::Kind kind, float value = 0.0f) {
-    RenderControl control;
-    control.kind = kind;
-    control.value = value;
-    return control;
-}
-
 } // namespace
-
-void PluginProcessor::processBlock(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) {
-    render(buffer, midi, false);
-    midi.clear();
-}
-
-void PluginProcessor::processBlockBypassed(juce::AudioBuffer<float>& buffer, juce::MidiBuffer& midi) {
-    render(buffer, midi, true);
-    midi.clear();
-}
 
 // In parts: some hosts exceed what they announced, and SILENCE closes at its frame.
 void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi,
@@ -183,14 +164,13 @@ void PluginProcessor::forgetControls() noexcept {
     }
 }
 
-bool PluginProcessor::hasNews(Parameter which) const noexcept {
-    return sent_[static_cast<std::size_t>(which)] != value(which);
-}
-
 // A value is told again until it is taken, so the newest is never lost.
 template <class Send>
 void PluginProcessor::send(std::initializer_list<Parameter> those, Send what) noexcept {
-    if (std::ranges::none_of(those, [this](Parameter which) { return hasNews(which); })) return;
+    if (std::ranges::none_of(those, [this](Parameter which) {
+            return sent_[static_cast<std::size_t>(which)] != value(which);
+        }))
+        return;
     auto told = sent_;
     // before: the host may change it meanwhile
     for (const auto which : those) told[static_cast<std::size_t>(which)] = value(which);
@@ -247,7 +227,7 @@ bool PluginProcessor::sendMaterial(Session& session, int frame) noexcept {
 void PluginProcessor::stopAll(int frame) noexcept {
     held_.forget();
     Session* const session = takes_.session();
-    owesStop_ = session && !session->callback().control(controlOf(RenderControl::Kind::stopAll), frame);
+    owesStop_ = session && !session->callback().control({.kind = RenderControl::Kind::stopAll}, frame);
 }
 
 void PluginProcessor::silence(int frame) noexcept {
@@ -258,10 +238,8 @@ void PluginProcessor::silence(int frame) noexcept {
 // Of the window's keyboard: at the beginning of the next part.
 void PluginProcessor::playKeys(int frame) noexcept {
     for (Key key; keys_.pop(key);) {
-        const std::array bytes{static_cast<juce::uint8>(key.velocity > 0 ? 0x90 : 0x80),
-                               static_cast<juce::uint8>(key.note & 127),
-                               static_cast<juce::uint8>(key.velocity & 127)};
-        receive({bytes.data(), static_cast<int>(bytes.size()), 0}, frame);
+        const juce::MidiMessage message{key.velocity > 0 ? 0x90 : 0x80, key.note & 127, key.velocity & 127};
+        receive({message.getRawData(), message.getRawDataSize(), 0}, frame);
     }
 }
 

@@ -127,6 +127,20 @@ std::optional<double> valueOfState(const ParameterRow& row, const ParameterValue
     return valueOf(row, word);
 }
 
+double valueIn(const PluginState& state, Parameter which) {
+    const auto& row = rowOf(which);
+    const auto found =
+        std::ranges::find(state.parameters, row.id, &std::pair<std::string, ParameterValue>::first);
+    return found == state.parameters.end() ? row.initial
+                                           : valueOfState(row, found->second).value_or(row.initial);
+}
+
+void setParameter(PluginState& state, Parameter which, double value) {
+    const auto& row = rowOf(which);
+    std::erase_if(state.parameters, [&row](const auto& p) { return p.first == row.id; });
+    state.parameters.emplace_back(row.id, std::clamp(value, row.least, row.most));
+}
+
 std::string faultOfParameters(const PluginState& state) {
     const auto noSuch = [](const std::string& id) { return "no parameter \"" + id + "\""; };
     for (const auto& [id, value] : state.parameters) {
@@ -182,20 +196,17 @@ struct Instrument {
 };
 
 NoteVoice voice(NotePlaces places, double decayPerSecond) {
-    NoteVoice v;
-    v.pitch = NotePitch::note;
-    v.places = places;
-    v.isLoudest = true;
-    v.decayPerSecond = decayPerSecond;
-    return v;
+    return {.pitch = NotePitch::note, .places = places, .isLoudest = true, .decayPerSecond = decayPerSecond};
 }
 
 NoteVoice held(NotePlaces places, double releaseSeconds, double bendSemitones) {
-    NoteVoice v = voice(places, 10.0);
-    v.isHeld = true;
-    v.releaseSeconds = releaseSeconds;
-    v.bendSemitones = bendSemitones;
-    return v;
+    return {.pitch = NotePitch::note,
+            .places = places,
+            .isHeld = true,
+            .isLoudest = true,
+            .decayPerSecond = 10.0,
+            .releaseSeconds = releaseSeconds,
+            .bendSemitones = bendSemitones};
 }
 
 const std::vector<Instrument>& instruments() {
@@ -257,8 +268,7 @@ Scene emptyField(const Instrument& instrument) {
 }
 
 EnchanterLayout beltOf(int count) {
-    // On a circle the last and the first are neighbours, too, and a note on one actuator is not shared among
-    // all, as it is in a row.
+    // On a circle the last and the first are neighbours: a note on one actuator is not shared among all.
     EnchanterLayout circle{2.0, 2.0, count, {}};
     for (int j = 0; j < count; ++j) {
         const double angle = 2.0 * std::numbers::pi * j / count;
@@ -297,15 +307,8 @@ const Instrument* instrumentOf(const PluginState& state) {
     return found == instruments().end() ? nullptr : &*found;
 }
 
-void appendParameter(PluginState& state, Parameter which, double value) {
-    const std::string id{rowOf(which).id};
-    std::erase_if(state.parameters, [&](const auto& p) { return p.first == id; });
-    state.parameters.emplace_back(id, value);
-}
-
 void resetInstrument(PluginState& state) {
-    for (const auto which : parameterTable::instrumentGroup)
-        appendParameter(state, which, rowOf(which).initial);
+    for (const auto which : parameterTable::instrumentGroup) setParameter(state, which, rowOf(which).initial);
 }
 
 void take(PluginState& state, const Instrument& instrument, int outputs) {
@@ -313,18 +316,11 @@ void take(PluginState& state, const Instrument& instrument, int outputs) {
     rearrange(state, outputs > 0 ? outputs : instrument.actuators);
     state.voice = instrument.voice;
     state.notes.clear();
-    const auto first = static_cast<int>(state.scene.materials.size() - instrument.kit.size());
-    for (int i = 0; i < std::ssize(instrument.kit); ++i) {
-        const KitNote& note = instrument.kit[static_cast<std::size_t>(i)];
-        NoteRule rule;
-        rule.note = note.note;
-        rule.material = first + i;
-        rule.x = note.x;
-        rule.y = note.y;
-        state.notes.push_back(rule);
-    }
-    appendParameter(state, Parameter::strikeLevel, instrument.strikeDb);
-    appendParameter(state, Parameter::beats, instrument.beats);
+    for (auto material = static_cast<int>(state.scene.materials.size() - instrument.kit.size());
+         const KitNote& note : instrument.kit)
+        state.notes.push_back({.note = note.note, .material = material++, .x = note.x, .y = note.y});
+    setParameter(state, Parameter::strikeLevel, instrument.strikeDb);
+    setParameter(state, Parameter::beats, instrument.beats);
     resetInstrument(state);
 }
 
@@ -347,7 +343,7 @@ void take(PluginState& state, const Scene& scene, int outputs) {
         rearrange(state, outputs > 0 ? outputs : sceneActuators);
     state.scene.driveGain *= driveOf(state.scene.name, enchantersOf(state));
     for (const auto which : {Parameter::strikeLevel, Parameter::beats})
-        appendParameter(state, which, rowOf(which).initial);
+        setParameter(state, which, rowOf(which).initial);
     resetInstrument(state);
 }
 

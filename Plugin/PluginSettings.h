@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The state of a plug-in instance as settings of its renderer and session, edits of it, and the built-in
-// presets.
+// A plug-in instance's state as settings of its renderer and session, edits of it, and the built-in presets.
 #pragma once
 #include "Live/Documents/PluginState.h"
 #include "Live/Session/Session.h"
@@ -19,8 +18,7 @@ void fitToLayout(PluginState& state);
 /// A preset's places for the enchanters that are there, which keep what drives them and their strips. M only.
 void usePreset(PluginState& state, std::string_view name);
 
-/// Another scene. Note rules hold on to materials and bodies by their names: those that it has not are left
-/// out. Any thread.
+/// Another scene. Note rules keep their materials and bodies by name, or are left out. Any thread.
 void useScene(PluginState& state, Scene scene);
 
 /// True if what plays by `a` can go on by `b`, another mix at most. Any thread.
@@ -34,26 +32,27 @@ SessionSetup sessionSetupOf(const PluginState& state);
 /// all is rendered in the call, without the output latency of a world. Any thread.
 bool hasWorld(const PluginState& state) noexcept;
 
-/// Whether a parameter changes anything of what such a state plays, now or when a note comes: others need not
-/// be shown. Any thread.
+/// In the unit of that parameter, as a state has it or as it comes. Any thread.
+double valueIn(const PluginState& state, Parameter which);
+/// The nearest that the parameter can have. Any thread.
+void setParameter(PluginState& state, Parameter which, double value);
+
+/// Whether a parameter changes what such a state plays, now or by a note: else it is not shown. Any thread.
 bool uses(const PluginState& state, const NoteKnobs& knobs, Parameter which) noexcept;
 
 /// Infinite: a world goes on by itself. Without one, from a strike at full scale until it has fallen out of
 /// hearing, at the smallest decay of the scene. Any thread.
 double tailSeconds(const PluginState& state, const NoteKnobs& knobs = {}) noexcept;
 
-/// A parameter's value as a state keeps it: a choice by its word, so that others may join it (decision 34).
-/// Any thread.
+/// A parameter's value in a state: choices by word, so that others may join (decision 34). Any thread.
 ParameterValue stateValue(const ParameterRow& row, double value);
 /// The value in the parameter's unit; none if the row has no such word. Any thread.
 std::optional<double> valueOfState(const ParameterRow& row, const ParameterValue& value);
 
-/// What a state says of parameters that are not there, or by words that they do not know; empty if nothing.
-/// Any thread.
+/// What is wrong with a state's parameters: ids and words that are not there; empty: nothing. Any thread.
 std::string faultOfParameters(const PluginState& state);
 
-/// Names of the presets: the built-in scenes first, whose places hosts have kept, then the instruments, which
-/// have no bodies. M only.
+/// Names of presets: the built-in scenes, whose places hosts keep, then instruments, without bodies. M only.
 const std::vector<std::string>& presetNames();
 
 /// A preset's name in words: built-in worlds are named as their files are. Any thread.

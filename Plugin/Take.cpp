@@ -75,26 +75,20 @@ void Take::release(Held& held, std::int64_t until, Make make) noexcept {
     }
 }
 
-// What the renderer comes to within the next frames: it is as far behind them as an input there is felt
-// late, but for its own latency.
+// What the renderer comes to in the next frames: behind them as an input is felt late, less its own latency.
 void Take::releaseUntil(int frames) noexcept {
     const auto& time = session.timeline();
     const std::int64_t until = time.framesRendered() + frames - time.inputLatencyFrames() +
                                HapticRenderer::latencyFramesAt(sampleRateHz_);
-    RenderControl control;
-    PhantomPanner panner;
-    release(levels_, until, [&](const HeldControl& held) {
-        control.kind = RenderControl::Kind::level;
-        control.value = static_cast<float>(held.value);
-        return control;
+    release(levels_, until, [](const HeldControl& held) {
+        return RenderControl{.kind = RenderControl::Kind::level, .value = static_cast<float>(held.value)};
     });
+    PhantomPanner panner;
     release(panners_, until, [&](const HeldControl& held) {
         const auto& settings = order_->settings;
-        control.kind = RenderControl::Kind::panner;
         panner = {settings.layout, held.law, held.value, settings.midi.fieldWidthMetres(),
                   settings.midi.fieldHeightMetres()};
-        control.panner = &panner;
-        return control;
+        return RenderControl{.kind = RenderControl::Kind::panner, .panner = &panner};
     });
 }
 

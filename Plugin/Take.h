@@ -45,8 +45,7 @@ public:
     /// Starts again from the seed. Any thread but R, while nobody renders or steps it.
     void rewind(TakeTiming timing);
 
-    /// Sends the strips' values to the session, which uses them from now on. False: its queue was full; call
-    /// again. Any thread but R.
+    /// The session's strips from now on. False: its queue was full; call again. Any thread but R.
     bool send(std::span<const Strip> strips);
 
     const TakeSettings& settings() const noexcept { return order_->settings; }
@@ -71,8 +70,7 @@ public:
     /// Takes audio from the host; null without `hasMusic`. R.
     MusicDelay* music() noexcept { return music_.get(); }
 
-    /// Silences all that happened before that frame of the next block. False: the queue is full; call again.
-    /// R, wait-free.
+    /// Silences all before that frame of the next block. False: the queue is full; call again. R, wait-free.
     bool silence(int frame) noexcept;
 
     /// Plays what the inputs until now cause, then fades out. R.

@@ -41,7 +41,10 @@ bool startsQuickly(const TakeSpec& order) noexcept { return order.settings.trans
 void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<Strip> strips) {
     checkGroups(setup);
     const std::lock_guard one{setMutex_};
-    const auto before = order();
+    const auto before = [this] {
+        const std::lock_guard lock{mutex_};
+        return order_;
+    }();
     for (;;) { // a take is built without the mutex, so that the worlds that play are stepped meanwhile
         std::unique_lock lock{mutex_};
         const int rate = sampleRateHz_, block = blockFrames_;
@@ -53,10 +56,8 @@ void Takes::set(SessionSetup setup, const TakeSettings& settings, std::vector<St
         std::unique_ptr<Take> take;
         if (block > 0)
             take = newTake(wanted, rate, block);
-        else
-            Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond}; // throws if it
-                                                                                               // cannot be
-                                                                                               // simulated
+        else // throws if it cannot be simulated
+            Simulation{wanted->setup.scene, wanted->setup.seed, wanted->setup.stepsPerSecond};
         lock.lock();
         // the host has prepared us meanwhile
         if (rate != sampleRateHz_ || block != blockFrames_ || known != knownAfterSeconds_) continue;
@@ -76,11 +77,6 @@ void Takes::sendAll() {
     for (auto& take : takes_)
         if (take->generation() == order_->generation && !take->isEnded.load(std::memory_order_acquire))
             take->send(strips_);
-}
-
-std::shared_ptr<const TakeSpec> Takes::order() const {
-    const std::lock_guard lock{mutex_};
-    return order_;
 }
 
 // The mutex is held.
@@ -363,17 +359,12 @@ void Takes::letGo(Take*& take) noexcept {
 }
 
 void Takes::letGoOfThoseOver() noexcept {
-    for (std::size_t i = 0; i < endingCount_;) {
-        if (!ending_[i]->isOver()) {
-            ++i;
-            continue;
-        }
-        letGo(ending_[i]);
-        std::copy(ending_.begin() + static_cast<std::ptrdiff_t>(i) + 1,
-                  ending_.begin() + static_cast<std::ptrdiff_t>(endingCount_),
-                  ending_.begin() + static_cast<std::ptrdiff_t>(i));
-        --endingCount_;
-    }
+    const auto rest = std::ranges::remove_if(std::span{ending_}.first(endingCount_), [](Take* take) {
+        const bool isOver = take->isOver();
+        if (isOver) letGo(take);
+        return isOver;
+    });
+    endingCount_ -= rest.size();
 }
 
 void Takes::render(int frames, RenderMode mode) noexcept {
@@ -449,8 +440,7 @@ void Stepper::remove(Stepped& one) {
     std::erase_if(members_, [&](const Member& member) { return member.one == &one; });
 }
 
-// At multiples of its period, so that those of equal ones come in one waking, and none comes in a burst after
-// a stall.
+// At multiples of its period: equal ones come in one waking, and none comes in a burst after a stall.
 void Stepper::tick(Member& member, Clock::time_point now) {
     if (now < member.next) return;
     member.one->tick();

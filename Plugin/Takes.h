@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes: runs of a session from its seed on, one after the other, started and ended at exact frames by the
-// render role.
+// Takes: runs of a session from its seed, one after the other, that R starts and ends at exact frames.
 //
 // Each take is a session of its own that begins at session time 0, so that takes with equal inputs are equal
 // to the bit. Those that are replaced play on for L frames, which are owed to the host, and fade then. One
@@ -34,10 +33,9 @@ namespace physvib {
 /// Who wants its world to be stepped.
 class Stepped {
 public:
-    virtual void tick() = 0;                         ///< on the stepping thread
-    virtual int ticksPerSecond() const noexcept = 0; ///< while blocks are rendered. Any thread
-    virtual double idleSeconds() const noexcept = 0; ///< between two ticks while none is: the first block may
-                                                     ///< have to wait so long. Any thread
+    virtual void tick() = 0;                           ///< on the stepping thread
+    virtual int ticksPerSecond() const noexcept = 0;   ///< while blocks are rendered. Any thread
+    virtual double idleSeconds() const noexcept = 0;   ///< while none is: the first block may wait so long
     virtual std::uint64_t blocks() const noexcept = 0; ///< rendered so far. Any thread
 
 protected:
@@ -80,15 +78,13 @@ private:
 /// How often the worlds are stepped, and what play-out delay that needs.
 struct TakePace {
     static constexpr int minTicksPerSecond = 200;    // 5 ms: a quarter of the two steps that are in L anyway
-    static constexpr double headroomSeconds = 0.005; // a DAW's own threads come before ours (measured:
-                                                     // Docs/plugin.md)
+    static constexpr double headroomSeconds = 0.005; // a DAW's own threads come first (Docs/plugin.md)
     static constexpr int stillTicksPerSecond = 20;   // without a world: only the log of events is drained
     static constexpr double stillIdleSeconds = 0.5;
     static int ticksPerSecond(int stepsPerSecond) noexcept {
         return stepsPerSecond > minTicksPerSecond ? std::min(stepsPerSecond, 1000) : minTicksPerSecond;
     }
-    /// While nothing is rendered: late by the gap and the step that may not have begun, the world is still in
-    /// time with the first block.
+    /// While nothing is rendered: late by the gap and a step, the world is in time with the first block.
     static double idleSeconds(int stepsPerSecond) noexcept {
         return longestGapSeconds(stepsPerSecond) + 1.0 / stepsPerSecond - idleMarginSeconds;
     }
@@ -125,8 +121,7 @@ public:
     void tick() override; ///< steps the worlds
 
     /// What later takes play, and by what strips. While prepared, the playing take is replaced as soon as R
-    /// comes by. Any thread but R; throws std::invalid_argument, and changes nothing, if the setup is not
-    /// valid.
+    /// comes by. Throws std::invalid_argument, changing nothing, if the setup is not valid. Any thread but R.
     void set(SessionSetup setup, const TakeSettings& settings, std::vector<Strip> strips = {});
 
     /// Other strips; what plays goes on, and is felt by them L later. Any thread but R.
@@ -147,8 +142,7 @@ public:
         return timing() == TakeTiming::tight ? tightFrames_ : safeFrames_;
     }
 
-    /// What the host is told: L, or, where strikes are direct, how long after its frame one is felt. 0 before
-    /// prepare. Any thread.
+    /// What the host is told: L, or with direct strikes, how late one is felt. 0 before prepare. Any thread.
     std::int64_t latencyFrames() const noexcept {
         return isDirect() ? directFrames_.load() : outputLatencyFrames();
     }
@@ -167,8 +161,7 @@ public:
     /// R: the playing take's; none: the newest
     const TakeSettings& settings() const noexcept { return playing_ ? playing_->settings() : newSettings_; }
 
-    /// Before each part of a block; true if a take starts with it, which knows no controls yet. R, wait-free
-    /// if realtime.
+    /// Before each part of a block; true: a take starts, which knows no controls. R, wait-free if realtime.
     bool begin(RenderMode mode) noexcept;
     /// What happened before that frame of the coming block is not felt any more, whatever take it is of.
     /// False if one has no room for it: it has to be told again. R, wait-free.
@@ -194,7 +187,6 @@ private:
     static constexpr std::size_t logSize = 16384; // ten minutes of "shake the box", if nobody looks
     static constexpr std::size_t kept = 3;        // one plays, one is next, one is ending or spare
     static constexpr std::size_t maxEnding = 8;   // loops as short as an eighth of L
-    std::shared_ptr<const TakeSpec> order() const;
     void setGaps(TakeSpec& order) const noexcept;
     std::unique_ptr<Take> newTake(std::shared_ptr<const TakeSpec> order, int sampleRateHz,
                                   int blockFrames) const;
@@ -217,7 +209,7 @@ private:
     // R
     template <class Do>
     void forEachSounding(Do what) const noexcept;
-    void letGo(Take*& take) noexcept;
+    static void letGo(Take*& take) noexcept;
     void letGoOfThoseOver() noexcept;
     RenderMode modeFor(const Take& take, int frames, RenderMode asked) noexcept;
     void writeStatus() noexcept;

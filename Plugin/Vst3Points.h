@@ -16,29 +16,30 @@
 
 namespace physvib {
 
+namespace vst = Steinberg::Vst;
+using Steinberg::int16, Steinberg::int32, Steinberg::tresult;
+
 /// As JUCE's wrapper numbers parameters: a hash of the id without its highest bit.
-inline const std::array<Steinberg::Vst::ParamID, parameterCount> vst3ParameterIds = [] {
-    std::array<Steinberg::Vst::ParamID, parameterCount> ids{};
+inline const std::array<vst::ParamID, parameterCount> vst3ParameterIds = [] {
+    std::array<vst::ParamID, parameterCount> ids{};
     for (std::size_t p = 0; p < parameterCount; ++p) {
         const auto& id = allParameters()[p].id;
-        ids[p] = static_cast<Steinberg::Vst::ParamID>(
+        ids[p] = static_cast<vst::ParamID>(
                      juce::String::fromUTF8(id.data(), static_cast<int>(id.size())).hashCode()) &
                  0x7fffffffu;
     }
     return ids;
 }();
 
-/// What hosts may draw for each note: they offer what they are told of. The wrapper's controller is one. Any
-/// thread.
-class Vst3Expressions : public Steinberg::Vst::INoteExpressionController {
+/// What hosts may draw for each note: they offer what they know. The wrapper's controller is one. Any thread.
+class Vst3Expressions : public vst::INoteExpressionController {
 public:
-    Steinberg::int32 PLUGIN_API getNoteExpressionCount(Steinberg::int32 bus, Steinberg::int16) override {
-        return bus == 0 ? static_cast<Steinberg::int32>(kinds.size()) : 0;
+    int32 PLUGIN_API getNoteExpressionCount(int32 bus, int16) override {
+        return bus == 0 ? static_cast<int32>(kinds.size()) : 0;
     }
-    Steinberg::tresult PLUGIN_API
-    getNoteExpressionInfo(Steinberg::int32 bus, Steinberg::int16, Steinberg::int32 index,
-                          Steinberg::Vst::NoteExpressionTypeInfo& info) override {
-        if (bus != 0 || index < 0 || index >= static_cast<Steinberg::int32>(kinds.size()))
+    tresult PLUGIN_API getNoteExpressionInfo(int32 bus, int16, int32 index,
+                                             vst::NoteExpressionTypeInfo& info) override {
+        if (bus != 0 || index < 0 || index >= static_cast<int32>(kinds.size()))
             return Steinberg::kInvalidArgument;
         const auto& kind = kinds[static_cast<std::size_t>(index)];
         info = {};
@@ -47,18 +48,15 @@ public:
             std::copy_n(kind.title.data(), kind.title.size(), title);
         info.unitId = -1;
         info.valueDesc = {kind.initial, 0.0, 1.0, 0};
-        info.flags = kind.initial == 0.5 ? Steinberg::Vst::NoteExpressionTypeInfo::kIsBipolar : 0;
+        info.flags = kind.initial == 0.5 ? vst::NoteExpressionTypeInfo::kIsBipolar : 0;
         return Steinberg::kResultOk;
     }
-    Steinberg::tresult PLUGIN_API getNoteExpressionStringByValue(Steinberg::int32, Steinberg::int16,
-                                                                 Steinberg::Vst::NoteExpressionTypeID,
-                                                                 Steinberg::Vst::NoteExpressionValue,
-                                                                 Steinberg::Vst::String128) override {
+    tresult PLUGIN_API getNoteExpressionStringByValue(int32, int16, vst::NoteExpressionTypeID,
+                                                      vst::NoteExpressionValue, vst::String128) override {
         return Steinberg::kNotImplemented; // hosts write these kinds as they do everywhere
     }
-    Steinberg::tresult PLUGIN_API getNoteExpressionValueByString(
-        Steinberg::int32, Steinberg::int16, Steinberg::Vst::NoteExpressionTypeID,
-        const Steinberg::Vst::TChar*, Steinberg::Vst::NoteExpressionValue&) override {
+    tresult PLUGIN_API getNoteExpressionValueByString(int32, int16, vst::NoteExpressionTypeID,
+                                                      const vst::TChar*, vst::NoteExpressionValue&) override {
         return Steinberg::kNotImplemented;
     }
 
@@ -67,25 +65,25 @@ protected:
 
 private:
     struct Kind {
-        Steinberg::Vst::NoteExpressionTypeID id;
+        vst::NoteExpressionTypeID id;
         std::u16string_view title;
         double initial;
     };
-    static constexpr std::array<Kind, 4> kinds{{{Steinberg::Vst::kVolumeTypeID, u"Volume", 0.25},
-                                                {Steinberg::Vst::kPanTypeID, u"Pan", 0.5},
-                                                {Steinberg::Vst::kTuningTypeID, u"Tuning", 0.5},
-                                                {Steinberg::Vst::kBrightnessTypeID, u"Brightness", 0.5}}};
+    static constexpr std::array<Kind, 4> kinds{{{vst::kVolumeTypeID, u"Volume", 0.25},
+                                                {vst::kPanTypeID, u"Pan", 0.5},
+                                                {vst::kTuningTypeID, u"Tuning", 0.5},
+                                                {vst::kBrightnessTypeID, u"Brightness", 0.5}}};
 };
 
 /// A block's events, in the order of frames also where the host's are not. As above.
 class Vst3Notes final : public NoteSource {
 public:
-    Vst3Notes(const juce::AudioProcessor* instance, Steinberg::Vst::IEventList* events) noexcept
+    Vst3Notes(const juce::AudioProcessor* instance, vst::IEventList* events) noexcept
         : events_{events} {
         if (!instance || !events) return;
         count_ = events->getEventCount();
-        Steinberg::Vst::Event event{};
-        for (Steinberg::int32 i = 0, before = 0; i < count_ && isSorted_; ++i, before = event.sampleOffset)
+        vst::Event event{};
+        for (int32 i = 0, before = 0; i < count_ && isSorted_; ++i, before = event.sampleOffset)
             isSorted_ =
                 events->getEvent(i, event) != Steinberg::kResultOk || i == 0 || event.sampleOffset >= before;
         static_cast<PluginProcessor*>(const_cast<juce::AudioProcessor*>(instance))->expectNotes(*this);
@@ -94,7 +92,7 @@ public:
     Vst3Notes& operator=(const Vst3Notes&) = delete;
 
     bool next(NoteEvent& note) noexcept override {
-        for (Steinberg::Vst::Event event{}; take(event);) {
+        for (vst::Event event{}; take(event);) {
             note = {};
             note.frame = event.sampleOffset;
             if (read(event, note)) return true;
@@ -104,10 +102,10 @@ public:
 
 private:
     struct Place {
-        Steinberg::int32 frame = std::numeric_limits<Steinberg::int32>::min(), index = -1;
+        int32 frame = std::numeric_limits<int32>::min(), index = -1;
         auto operator<=>(const Place&) const = default;
     };
-    bool take(Steinberg::Vst::Event& event) noexcept {
+    bool take(vst::Event& event) noexcept {
         if (isSorted_) {
             while (++last_.index < count_)
                 if (events_->getEvent(last_.index, event) == Steinberg::kResultOk) return true;
@@ -121,8 +119,8 @@ private:
     // The next ones after the last, as many as there is room for.
     void order() noexcept {
         at_ = ordered_ = 0;
-        Steinberg::Vst::Event event{};
-        for (Steinberg::int32 i = 0; i < count_; ++i) {
+        vst::Event event{};
+        for (int32 i = 0; i < count_; ++i) {
             if (events_->getEvent(i, event) != Steinberg::kResultOk) continue;
             const Place place{event.sampleOffset, i};
             if (place <= last_) continue;
@@ -139,8 +137,8 @@ private:
     static std::uint8_t byte(double value, double most) noexcept {
         return static_cast<std::uint8_t>(std::clamp(value, 0.0, most) + 0.5);
     }
-    static bool read(const Steinberg::Vst::Event& event, NoteEvent& note) noexcept {
-        using namespace Steinberg::Vst;
+    static bool read(const vst::Event& event, NoteEvent& note) noexcept {
+        using namespace vst;
         const auto message = [&note](int kind, int channel, int pitch, double value, int id) {
             note.midi = {static_cast<std::uint8_t>(kind | byte(channel, 15.0)), byte(pitch, 127.0),
                          byte(value > 0.0 ? 127.0 * value : 0.0, 127.0)};
@@ -161,25 +159,21 @@ private:
         }
         return event.type == Event::kNoteExpressionValueEvent && express(event.noteExpressionValue, note);
     }
-    static bool express(const Steinberg::Vst::NoteExpressionValueEvent& event, NoteEvent& note) noexcept {
+    static bool express(const vst::NoteExpressionValueEvent& event, NoteEvent& note) noexcept {
         using Kind = NoteEvent::Kind;
         note.id = event.noteId;
         if (note.id < 0) return false; // of no note
         switch (event.typeId) {
-        case Steinberg::Vst::kVolumeTypeID: note.kind = Kind::volume, note.value = 4.0 * event.value; break;
-        case Steinberg::Vst::kPanTypeID: note.kind = Kind::pan, note.value = 2.0 * event.value - 1.0; break;
-        case Steinberg::Vst::kTuningTypeID:
-            note.kind = Kind::tuning, note.value = 240.0 * event.value - 120.0;
-            break;
-        case Steinberg::Vst::kBrightnessTypeID:
-            note.kind = Kind::brightness, note.value = event.value - 0.5;
-            break;
+        case vst::kVolumeTypeID: note.kind = Kind::volume, note.value = 4.0 * event.value; break;
+        case vst::kPanTypeID: note.kind = Kind::pan, note.value = 2.0 * event.value - 1.0; break;
+        case vst::kTuningTypeID: note.kind = Kind::tuning, note.value = 240.0 * event.value - 120.0; break;
+        case vst::kBrightnessTypeID: note.kind = Kind::brightness, note.value = event.value - 0.5; break;
         default: return false;
         }
         return true;
     }
-    Steinberg::Vst::IEventList* const events_;
-    Steinberg::int32 count_ = 0;
+    vst::IEventList* const events_;
+    int32 count_ = 0;
     bool isSorted_ = true;
     Place last_;
     std::array<Place, 512> order_; // of a host that does not keep it
@@ -190,9 +184,9 @@ private:
 class Vst3Points final : public PointSource {
 public:
     /// `instance` is a PluginProcessor: this module makes no other.
-    Vst3Points(const juce::AudioProcessor* instance, Steinberg::Vst::IParameterChanges* changes) noexcept {
+    Vst3Points(const juce::AudioProcessor* instance, vst::IParameterChanges* changes) noexcept {
         if (!instance || !changes) return;
-        for (Steinberg::int32 i = 0, count = changes->getParameterCount(); i < count; ++i)
+        for (int32 i = 0, count = changes->getParameterCount(); i < count; ++i)
             if (auto* const queue = changes->getParameterData(i)) take(*queue);
         static_cast<PluginProcessor*>(const_cast<juce::AudioProcessor*>(instance))->expectPoints(*this);
     }
@@ -216,17 +210,16 @@ public:
 
 private:
     struct Queued {
-        Steinberg::Vst::IParamValueQueue* queue = nullptr;
-        Steinberg::int32 at = 0;
+        vst::IParamValueQueue* queue = nullptr;
+        int32 at = 0;
     };
-    void take(Steinberg::Vst::IParamValueQueue& queue) noexcept {
+    void take(vst::IParamValueQueue& queue) noexcept {
         const auto id = queue.getParameterId();
         for (std::size_t p = 0; p < parameterCount; ++p)
             if (vst3ParameterIds[p] == id) points_[p].queue = &queue;
     }
-    static bool read(Steinberg::Vst::IParamValueQueue& queue, Steinberg::int32 index,
-                     ParameterPoint& point) noexcept {
-        Steinberg::int32 frame = 0;
+    static bool read(vst::IParamValueQueue& queue, int32 index, ParameterPoint& point) noexcept {
+        int32 frame = 0;
         if (queue.getPoint(index, frame, point.normal) != Steinberg::kResultTrue) return false;
         point.frame = frame;
         return true;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The built-in scenes, materials, actuators and pads where the Projucer embeds them (CMake does
-// by Source/Io/embed.cmake).
+// The built-in scenes, materials, actuators and pads for the Projucer; for CMake see Source/Io/embed.cmake.
 #include "BinaryData.h"
 #include "Io/Disk/Embedded.h"
 

@@ -65,8 +65,7 @@ std::vector<double> bends(const AhapEvent& event, const std::vector<ClipPoint>& 
     return at;
 }
 
-/// Calls `take` for each line of `value` between bends of `curve`: from its value at one to its value just
-/// before the next.
+/// Calls `take` for each line of `value` between bends of `curve`, up to its value just before the next bend.
 template <class Value, class Take>
 void eachLine(const AhapEvent& event, const std::vector<ClipPoint>& curve, Value value, Take take) {
     const auto at = bends(event, curve);
@@ -131,8 +130,7 @@ private:
         return scale_.hertz(event.sharpness + valueAt(sharpness_, at));
     }
 
-    /// Each event copies the curves that apply during it, so many events on long curves could exceed the
-    /// file's size by far.
+    /// Each event copies the curves that apply during it: many could exceed the file's size by far.
     void grow(std::size_t points) {
         made_ += points;
         if (made_ > 4 * limits::maxClipPoints)

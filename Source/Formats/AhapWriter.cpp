@@ -18,16 +18,14 @@ namespace {
 /// A stretch of a channel's envelope: one continuous event.
 struct AhapPiece {
     std::vector<EnvelopePoint> points;    ///< two or more
-    std::optional<EnvelopePoint> level{}; ///< level of the piece's event if a transient sounds beside it;
-                                          ///< nullopt: full intensity, no sharpness
+    std::optional<EnvelopePoint> level{}; ///< of its event beside a transient; else full intensity, not sharp
 };
 
 constexpr double silenceSeconds = 0.05; // a longer silence ends an event
 constexpr double rounding = 1e-9;       // of a line's values
 constexpr double leastPieceSeconds = 0.001;
 constexpr double leadSeconds = 0.0004; // curves are neutral this long before a transient
-constexpr double mostChange = 2.0; // of the amplitude within a piece: the curves then reduce a transient's
-                                   // end by at most 3 dB
+constexpr double mostChange = 2.0; // of the amplitude within a piece: curves reduce a transient's end by 3 dB
 
 /// Divides lines that are longer than an event may be.
 std::vector<EnvelopePoint> cutToLength(std::span<const EnvelopePoint> envelope) {

@@ -18,8 +18,7 @@
 namespace physvib::limits {
 
 constexpr std::size_t maxClipFileBytes = 24'000'000; // parsed JSON needs six times its bytes: 150 MB
-constexpr std::size_t maxClipPoints = 500'000; // of all curves: 10,000 impacts on four actuators, of a dozen
-                                               // points each
+constexpr std::size_t maxClipPoints = 500'000;       // 10,000 impacts on four actuators, a dozen points each
 constexpr std::size_t maxClipStrikes = maxClipPoints / 2; // each has at least two points
 constexpr std::size_t maxClipBands = 4096;      // of all channels: each may have a sounding wave at any time
 constexpr double maxClipSeconds = 600.0;        // as for recordings, because a clip becomes samples
@@ -59,8 +58,7 @@ inline double valueAt(std::span<const ClipPoint> curve, double seconds) noexcept
 
 enum class ClipWaveform { sine, square, triangle, sawtoothUp, sawtoothDown };
 
-/// amplitude(t) waveform(phase + 2 pi integral of the frequency), t = time since `startSeconds`, up to the
-/// last point of the amplitude.
+/// amplitude(t) waveform(phase + 2 pi integral of the frequency), t from `startSeconds` to the last point.
 struct ClipWave {
     double startSeconds = 0.0;
     double phaseRadians = 0.0;

@@ -55,8 +55,7 @@ Result<Clip> readClip(std::string_view bytes, std::string_view name, ClipFormat 
 /// The same for a file. Any thread but the render thread (R).
 Result<Clip> loadClip(const std::filesystem::path& path, ClipFormat format, const FrequencyScale& scale = {});
 
-/// The bytes of a file with `clip` (without a clipFault), or its first channel if the format has only one.
-/// Any thread.
+/// A file with `clip` (without a clipFault), or its first channel if the format has only one. Any thread.
 std::string clipBytes(const Clip& clip, ClipFormat format, const FrequencyScale& scale = {});
 
 /// What the format cannot store of `clip`, one line each, for the user. Any thread.
@@ -73,15 +72,13 @@ std::vector<std::string> clipLosses(const Clip& clip, ClipFormat format, const F
 /// Optional fields may be missing, unknown ones are ignored. Any thread.
 Result<Clip> readHjif(std::string_view text, std::string_view name);
 
-/// `clip` (without a clipFault) as JSON with 48,000 ticks per second. Equal clips give equal text, because
-/// the date is constant. Any thread.
+/// `clip` (without a clipFault) as JSON, 48,000 ticks per second; the date is constant. Any thread.
 std::string hjifText(const Clip& clip);
 
 /// What .hjif cannot store of `clip`, of these frequencies, one line each. Any thread.
 std::vector<std::string> hjifLosses(const Clip& clip, const std::set<double>& frequenciesHz);
 
-// Reader and writer of Meta's .haptic format, which FMOD and Wwise also read: one envelope of amplitude, one
-// of frequency, and emphasis points.
+// Reader and writer of Meta's .haptic, which FMOD and Wwise also read: envelopes and emphasis points.
 //
 // Stores: one channel, amplitudes and frequencies from 0 to 1, transients as emphasis, any length. Does not
 // store: several channels, places, several frequencies at once, phases, levels beyond full scale, Hz.
@@ -91,16 +88,14 @@ std::vector<std::string> hjifLosses(const Clip& clip, const std::set<double>& fr
 /// at least two points of amplitude, emphasis at least as strong as the envelope. Any thread.
 Result<Clip> readMetaHaptic(std::string_view text, std::string_view name, const FrequencyScale& scale = {});
 
-/// Number of transients that are weaker than the envelope beside them; the format requires them to be raised
-/// to it. Any thread.
+/// Transients weaker than the envelope beside them: the format requires them to be raised to it. Any thread.
 std::size_t metaHapticRaised(const ClipChannel& channel);
 
 /// `channel` as such a file. Any thread.
 std::string metaHapticText(const ClipChannel& channel, std::string_view title,
                            const FrequencyScale& scale = {});
 
-// Reader and writer of Apple's .ahap format: continuous and transient events, and curves that control all of
-// them.
+// Reader and writer of Apple's .ahap: continuous and transient events, and curves that control all of them.
 //
 // Stores: one channel, intensities and sharpnesses from 0 to 1, transients; consecutive continuous events of
 // at most 30 s. Does not store: several channels, places, several frequencies at once, phases, levels beyond

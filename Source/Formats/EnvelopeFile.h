@@ -24,9 +24,8 @@ struct EnvelopePoint {
     double frequencyHz = 0.0; ///< held during silence
 };
 
-/// All waves of the channel combined: amplitude is the root of their summed squares, frequency is weighted by
-/// those squares. Transients are excluded. Times increase; a jump takes `riseSeconds`. Begins and ends at
-/// amplitude 0. Any thread.
+/// All waves of the channel combined, without transients: the root of their summed squares, the frequency
+/// weighted by these. Times increase; a jump takes `riseSeconds`. From amplitude 0 to 0. Any thread.
 std::vector<EnvelopePoint> envelopeOf(const ClipChannel& channel, double riseSeconds = envelopeRiseSeconds);
 
 /// On the line from `a` to `b`, at that share. Any thread.

@@ -50,8 +50,7 @@ private:
     int pointsOf(double metres) const { return static_cast<int>(std::lround(metres / pitchMetres)) + 1; }
 };
 
-/// Sets a channel's place in the clip, assuming a grid of 1 mm, because the format has no unit. A grid of one
-/// point has no places.
+/// Sets a channel's place, on a grid of 1 mm: the format has no unit. A grid of one point has no places.
 void takePlace(Clip& clip, ClipChannel& channel, GridPoint points, GridPoint at) {
     if (points.x < 1 || points.y < 1 || points.x + points.y < 3 || at.x < 0 || at.y < 0 || at.x >= points.x ||
         at.y >= points.y)
@@ -144,10 +143,8 @@ public:
 private:
     void readPerception(const JsonField& perception) {
         perception.expectObject();
-        if (!isVibrotactile(perception))
-            return leftOut_.add("a perception of " + perception["perception_modality"].line()); // actuators
-                                                                                                // cannot play
-                                                                                                // it
+        if (!isVibrotactile(perception)) // actuators cannot play it
+            return leftOut_.add("a perception of " + perception["perception_modality"].line());
         library_.clear();
         for (std::size_t i = 0;
              perception.has("effect_library") && i < perception["effect_library"].arraySize(); ++i) {
@@ -161,8 +158,7 @@ private:
         for (std::size_t i = 0; i < channels.arraySize(); ++i) readChannel(channels.item(i), perception);
     }
 
-    /// Includes "Other" with waves or transients, which MPEG's encoder writes for every .ahap, but not with
-    /// wavelets, whose meaning is unknown.
+    /// Also "Other" with waves or transients, as MPEG's encoder writes .ahap; wavelets' meaning is unknown.
     static bool isVibrotactile(const JsonField& perception) {
         const JsonField modality = perception["perception_modality"];
         if (!modality.is("Other") || !perception.has("channels")) return modality.is("Vibrotactile");

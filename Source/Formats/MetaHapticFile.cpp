@@ -79,8 +79,7 @@ std::vector<ClipPoint> amplitudesOf(const std::vector<EnvelopePoint>& envelope) 
 
 constexpr double unfeltSeconds = 0.0009; // maximum shift of a transient
 
-/// The nearest time at which the envelope does not exceed the transient: its own, or a point of the envelope
-/// nearby.
+/// The nearest time at which the envelope does not exceed the transient: its own, or a point nearby.
 double placeOf(const ClipTransient& transient, const std::vector<ClipPoint>& curve) {
     const double at = transient.seconds;
     if (valueAt(curve, at) <= transient.amplitude) return at;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Converts events to waves: each start or cut of a mode is an edge on a tick; between two edges the sum of a
-// mode's events is one decaying sine.
+// Events as waves: starts and cuts of a mode are edges on ticks, between two it is one decaying sine.
 #include "Formats/StrikeClip.h"
 #include "Core/ClockLaw.h"
 #include "Core/PortableMath.h"
@@ -114,8 +113,7 @@ double longestChord(double error) {
     return low;
 }
 
-constexpr double lastChord = 6.0; // from so many errors to 0, a line that meets the exponential at one error
-                                  // stays within one
+constexpr double lastChord = 6.0; // a line from so many errors to 0 by way of one stays within one
 
 } // namespace
 
@@ -147,8 +145,7 @@ Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSetti
     return clip;
 }
 
-// Greedy approximation of an exponential: each chord is as long as its error allows, so chords become longer
-// as the exponential falls.
+// Greedy: each chord is as long as its error allows, so chords become longer as the exponential falls.
 std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::int64_t endTick, double error,
                                   int ticksPerSecond) {
     const auto at = [=](std::int64_t tick, double value) {
@@ -176,8 +173,7 @@ std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::
     return curve;
 }
 
-// Renders a clip wave by wave: interpolates amplitude and frequency; the phase is the integral of the
-// frequency.
+// Renders a clip wave by wave: interpolates amplitude and frequency, whose integral is the phase.
 
 namespace {
 

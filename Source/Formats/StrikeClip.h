@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Converts a list of events to a clip: one sine at a time per channel and mode, with a piecewise linear
-// envelope.
+// Events as a clip: one sine at a time per channel and mode, with a piecewise linear envelope.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
@@ -17,8 +16,7 @@ namespace physvib {
 using StrikeGains = std::function<void(const CollisionEvent& event, PhantomPanner::Gains& gains)>;
 
 struct StrikeClipSettings {
-    static constexpr int ticksPerSecond = 48000; ///< onsets are aligned to these ticks, with the phase and
-                                                 ///< amplitude of that time
+    static constexpr int ticksPerSecond = 48000; ///< of onsets, with phase and amplitude of that time
     double error = 0.004; ///< maximum error of the lines relative to the wave's initial amplitude
     std::size_t channels = 0;
     StrikeGains gains;
@@ -30,9 +28,8 @@ struct StrikeClipSettings {
 /// limits, so that clipFault reports it. Any thread.
 Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSettings& settings);
 
-/// Points on `amplitude` exp(-decayPerSecond t), in ticks of `ticksPerSecond`, whose chords differ from it by
-/// at most `error` times |amplitude|. The last point is 0 where the decay is below that error, or lies on it
-/// at `endTick`. Any thread.
+/// Points on `amplitude` exp(-decayPerSecond t), in ticks, whose chords differ from it by at most `error` of
+/// |amplitude|. The last is 0 where the decay is below that error, or lies on it at `endTick`. Any thread.
 std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::int64_t endTick, double error,
                                   int ticksPerSecond);
 

@@ -149,16 +149,22 @@ public:
         bool isClosed = false;
     };
 
-    void startNewSubPath(float x, float y) { parts_.push_back({{Kind::move}, {{x, y}}}); }
-    void startNewSubPath(Spot p) { startNewSubPath(p.x, p.y); }
-    void lineTo(float x, float y) { add(Kind::line, {{x, y}}); }
-    void lineTo(Spot p) { lineTo(p.x, p.y); }
-    void conicTo(Spot control, Spot end) { add(Kind::conic, {control, end}); }
-    void cubicTo(Spot first, Spot second, Spot end) { add(Kind::cubic, {first, second, end}); }
-    void closeSubPath() { parts_.back().isClosed = true; }
-    void addRectangle(float x, float y, float width, float height);
-    void addEllipse(float x, float y, float width, float height);
-    void addRounded(Box box, float radius); ///< a rectangle with round corners
+    Path& startNewSubPath(float x, float y) { return startNewSubPath({x, y}); }
+    Path& startNewSubPath(Spot p) {
+        parts_.push_back({{Kind::move}, {p}});
+        return *this;
+    }
+    Path& lineTo(float x, float y) { return lineTo({x, y}); }
+    Path& lineTo(Spot p) { return add(Kind::line, {p}); }
+    Path& conicTo(Spot control, Spot end) { return add(Kind::conic, {control, end}); }
+    Path& cubicTo(Spot first, Spot second, Spot end) { return add(Kind::cubic, {first, second, end}); }
+    Path& closeSubPath() {
+        parts_.back().isClosed = true;
+        return *this;
+    }
+    Path& addRectangle(float x, float y, float width, float height);
+    Path& addEllipse(float x, float y, float width, float height);
+    Path& addRounded(Box box, float radius); ///< a rectangle with round corners
 
     bool empty() const noexcept { return parts_.empty(); }
     const std::vector<Part>& parts() const noexcept { return parts_; }
@@ -166,9 +172,10 @@ public:
     void move(const Transform& by);
 
 private:
-    void add(Kind kind, std::initializer_list<Spot> points) {
+    Path& add(Kind kind, std::initializer_list<Spot> points) {
         parts_.back().steps.push_back(kind);
         parts_.back().points.insert(parts_.back().points.end(), points);
+        return *this;
     }
     std::vector<Part> parts_;
 };

@@ -209,43 +209,6 @@ void Painter::strokePath(const Path& path, float width, const Transform& move) {
     for (const Path::Part& part : path.parts()) raster_->stroke(*this, part, move);
 }
 
-void Painter::fillRect(Box box) {
-    Path path;
-    path.addRectangle(box.x, box.y, box.width, box.height);
-    fillPath(path);
-}
-
-void Painter::fillEllipse(Box box) {
-    Path path;
-    path.addEllipse(box.x, box.y, box.width, box.height);
-    fillPath(path);
-}
-
-void Painter::fillRounded(Box box, float radius) {
-    Path path;
-    path.addRounded(box, radius);
-    fillPath(path);
-}
-
-void Painter::drawEllipse(Box box, float width) {
-    Path path;
-    path.addEllipse(box.x, box.y, box.width, box.height);
-    strokePath(path, width);
-}
-
-void Painter::drawRounded(Box box, float radius, float width) {
-    Path path;
-    path.addRounded(box, radius);
-    strokePath(path, width);
-}
-
-void Painter::drawLine(Spot from, Spot to, float width) {
-    Path path;
-    path.startNewSubPath(from);
-    path.lineTo(to);
-    strokePath(path, width);
-}
-
 void Painter::blend(int x, int y, Colour colour) {
     if (clip_.contains({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}))
         image_.blend(x, y, colour);
@@ -255,36 +218,37 @@ namespace {
 constexpr float quarter = 0.5522848f; // of a circle by a cubic: its handles, as a share of the radius
 }
 
-void Path::addRectangle(float x, float y, float width, float height) {
-    startNewSubPath(x, y);
-    for (const Spot corner : {Spot{x + width, y}, Spot{x + width, y + height}, Spot{x, y + height}})
-        lineTo(corner);
-    closeSubPath();
+Path& Path::addRectangle(float x, float y, float width, float height) {
+    return startNewSubPath(x, y)
+        .lineTo(x + width, y)
+        .lineTo(x + width, y + height)
+        .lineTo(x, y + height)
+        .closeSubPath();
 }
 
-void Path::addEllipse(float x, float y, float width, float height) {
+Path& Path::addEllipse(float x, float y, float width, float height) {
     const float a = 0.5f * width, b = 0.5f * height, cx = x + a, cy = y + b;
-    startNewSubPath(cx + a, cy);
-    cubicTo({cx + a, cy + quarter * b}, {cx + quarter * a, cy + b}, {cx, cy + b});
-    cubicTo({cx - quarter * a, cy + b}, {cx - a, cy + quarter * b}, {cx - a, cy});
-    cubicTo({cx - a, cy - quarter * b}, {cx - quarter * a, cy - b}, {cx, cy - b});
-    cubicTo({cx + quarter * a, cy - b}, {cx + a, cy - quarter * b}, {cx + a, cy});
-    closeSubPath();
+    return startNewSubPath(cx + a, cy)
+        .cubicTo({cx + a, cy + quarter * b}, {cx + quarter * a, cy + b}, {cx, cy + b})
+        .cubicTo({cx - quarter * a, cy + b}, {cx - a, cy + quarter * b}, {cx - a, cy})
+        .cubicTo({cx - a, cy - quarter * b}, {cx - quarter * a, cy - b}, {cx, cy - b})
+        .cubicTo({cx + quarter * a, cy - b}, {cx + a, cy - quarter * b}, {cx + a, cy})
+        .closeSubPath();
 }
 
-void Path::addRounded(Box box, float radius) {
+Path& Path::addRounded(Box box, float radius) {
     const float r = std::min({radius, 0.5f * box.width, 0.5f * box.height}), k = (1.0f - quarter) * r;
     const float left = box.x, top = box.y, right = box.right(), bottom = box.bottom();
-    startNewSubPath(left + r, top);
-    lineTo(right - r, top);
-    cubicTo({right - k, top}, {right, top + k}, {right, top + r});
-    lineTo(right, bottom - r);
-    cubicTo({right, bottom - k}, {right - k, bottom}, {right - r, bottom});
-    lineTo(left + r, bottom);
-    cubicTo({left + k, bottom}, {left, bottom - k}, {left, bottom - r});
-    lineTo(left, top + r);
-    cubicTo({left, top + k}, {left + k, top}, {left + r, top});
-    closeSubPath();
+    return startNewSubPath(left + r, top)
+        .lineTo(right - r, top)
+        .cubicTo({right - k, top}, {right, top + k}, {right, top + r})
+        .lineTo(right, bottom - r)
+        .cubicTo({right, bottom - k}, {right - k, bottom}, {right - r, bottom})
+        .lineTo(left + r, bottom)
+        .cubicTo({left + k, bottom}, {left, bottom - k}, {left, bottom - r})
+        .lineTo(left, top + r)
+        .cubicTo({left, top + k}, {left + k, top}, {left + r, top})
+        .closeSubPath();
 }
 
 void Path::move(const Transform& by) {

@@ -37,12 +37,18 @@ public:
     void fillPath(const Path& path, const Transform& move = {});
     /// A line of that width along the path, with mitred corners and flat ends.
     void strokePath(const Path& path, float width, const Transform& move = {});
-    void fillRect(Box box);
-    void fillEllipse(Box box);
-    void fillRounded(Box box, float radius);
-    void drawEllipse(Box box, float width);
-    void drawRounded(Box box, float radius, float width);
-    void drawLine(Spot from, Spot to, float width);
+    void fillRect(Box b) { fillPath(Path{}.addRectangle(b.x, b.y, b.width, b.height)); }
+    void fillEllipse(Box b) { fillPath(Path{}.addEllipse(b.x, b.y, b.width, b.height)); }
+    void fillRounded(Box box, float radius) { fillPath(Path{}.addRounded(box, radius)); }
+    void drawEllipse(Box b, float width) {
+        strokePath(Path{}.addEllipse(b.x, b.y, b.width, b.height), width);
+    }
+    void drawRounded(Box box, float radius, float width) {
+        strokePath(Path{}.addRounded(box, radius), width);
+    }
+    void drawLine(Spot from, Spot to, float width) {
+        strokePath(Path{}.startNewSubPath(from).lineTo(to), width);
+    }
     void blend(int x, int y, Colour colour); ///< one pixel, whatever has been added as a transform
 
     /// Nothing is painted outside of it as well.

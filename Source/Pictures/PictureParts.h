@@ -60,6 +60,8 @@ int lanesHeight(int channels) noexcept;
 /// The scale that all lanes of a window share, in words.
 std::string fullHeight(const WaveformEnvelope& wave);
 
+std::vector<int> everyChannelOf(const WaveformEnvelope& wave);
+
 /// Lanes of `channels` from top to bottom in `axis.lane`, labels and peaks beside them; above 16 strips whose
 /// brightness is the level, labelled in groups.
 void drawLanes(const Canvas& canvas, const PictureInput& input, const WaveformEnvelope& wave,
@@ -71,8 +73,7 @@ void drawHits(const Canvas& canvas, const PictureInput& input, const HitColours&
 /// What the colours of hits mean, right-aligned; if the names are too long, each gets its share of the row.
 void drawLegend(const Canvas& canvas, const HitColours& colours, Area row);
 
-/// The field to scale, bodies, hits as glows, what rolls and slides as lines of light, enchanters, and one
-/// sentence on the strongest hit.
+/// The field to scale, bodies, hits as glows, traces as lines, enchanters, a sentence on the strongest hit.
 void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours& colours, Area panel);
 
 /// 100 ms around the strongest hit, a lane per channel; the eight loudest if there are more.
@@ -150,8 +151,7 @@ struct FieldMap {
 /// The field to scale, in the middle of `room`.
 FieldMap fitField(const PictureInput& input, Area room);
 
-/// A place of the field. Of a layout in space the view is oblique: what is nearer to the viewer is further
-/// down and to the left.
+/// A place of the field. A layout in space is seen obliquely: what is nearer is further down and to the left.
 Spot spotOf(const PictureInput& input, const FieldMap& map, double x, double y, double z);
 
 /// Where actuator `channel` stands, the layout being mapped on the field.

@@ -14,14 +14,8 @@ namespace {
 
 constexpr std::size_t mostZoomLanes = 8;
 
-std::vector<int> everyChannel(const WaveformEnvelope& wave) {
-    std::vector<int> channels(static_cast<std::size_t>(wave.channels()));
-    std::iota(channels.begin(), channels.end(), 0);
-    return channels;
-}
-
 std::vector<int> loudestChannels(const WaveformEnvelope& wave) {
-    auto channels = everyChannel(wave);
+    auto channels = everyChannelOf(wave);
     std::ranges::stable_sort(channels, std::greater{}, [&](int c) { return wave.peak(c); });
     channels.resize(std::min(channels.size(), mostZoomLanes));
     std::ranges::sort(channels);
@@ -34,7 +28,7 @@ void drawChannels(const Canvas& canvas, const PictureInput& input, const std::ve
     area.removeFromTop(6);
     if (input.waveform == nullptr) return canvas.heading("CHANNELS", "no sound", heading);
     canvas.heading("CHANNELS", fullHeight(*input.waveform), heading);
-    drawLanes(canvas, input, *input.waveform, everyChannel(*input.waveform),
+    drawLanes(canvas, input, *input.waveform, everyChannelOf(*input.waveform),
               {0.0, input.durationSeconds, laneOf(canvas, input, area)}, grid);
 }
 
@@ -44,8 +38,8 @@ void drawZoom(const Canvas& canvas, const PictureInput& input, Area panel) {
     canvas.panel(panel);
     panel = panel.reduced(20, 12);
     const auto heading = panel.removeFromTop(headingHeight);
-    const auto strongest = strongestEvent(input.events);
-    if (strongest < 0 || input.zoom == nullptr) {
+    const auto* const strongest = strongestEvent(input.events);
+    if (!strongest || input.zoom == nullptr) {
         canvas.heading("STRONGEST HIT", {}, heading);
         return canvas.text("no hit", panel, Align::centre, palette::muted, mediumText);
     }
@@ -57,7 +51,7 @@ void drawZoom(const Canvas& canvas, const PictureInput& input, Area panel) {
     canvas.heading("STRONGEST HIT, 100 MS" + part, fullHeight(zoom), heading);
     const auto axisRow = panel.removeFromBottom(axisHeight);
     const double rate = input.sampleRateHz;
-    const double onset = static_cast<double>(input.events[static_cast<std::size_t>(strongest)].timeNs) * 1e-9;
+    const double onset = static_cast<double>(strongest->timeNs) * 1e-9;
     const double from = static_cast<double>(zoom.firstFrame()) / rate - onset;
     const Axis axis{1e3 * from, 1e3 * (from + static_cast<double>(zoom.frameCount()) / rate),
                     laneOf(canvas, input, panel.withTrimmedTop(6))};
@@ -191,6 +185,12 @@ void drawStrips(const Canvas& canvas, const PictureInput& input, const WaveformE
 
 } // namespace
 
+std::vector<int> everyChannelOf(const WaveformEnvelope& wave) {
+    std::vector<int> channels(static_cast<std::size_t>(wave.channels()));
+    std::iota(channels.begin(), channels.end(), 0);
+    return channels;
+}
+
 void drawLanes(const Canvas& canvas, const PictureInput& input, const WaveformEnvelope& wave,
                const std::vector<int>& channels, const Axis& axis, const std::vector<double>& grid) {
     if (static_cast<int>(channels.size()) <= mostWaves)
@@ -317,10 +317,6 @@ namespace {
 constexpr double anyDecay = -1.0;
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-bool sounds(const Material& material, const CollisionEvent& event) {
-    return material.frequencyHz == event.frequencyHz && material.decayPerSecond == event.decayPerSecond;
-}
-
 } // namespace
 
 HitColours::HitColours(const PictureInput& input) {
@@ -344,14 +340,16 @@ Colour HitColours::of(const CollisionEvent& event) const {
 void HitColours::takeMaterials(const PictureInput& input) {
     meaning_ = "material";
     const auto& materials = input.scene->materials;
-    bool unknown = false;
     std::set<std::size_t> used;
     for (const auto& body : sceneCast(*input.scene))
         for (const auto& fixture : body.fixtures) used.insert(static_cast<std::size_t>(fixture.material));
+    bool unknown = false;
     for (const auto& event : input.events) {
-        const auto found = std::ranges::find_if(materials, [&](const auto& m) { return sounds(m, event); });
-        found == materials.end() ? void(unknown = true)
-                                 : void(used.insert(static_cast<std::size_t>(found - materials.begin())));
+        const auto found = std::ranges::find_if(materials, [&](const Material& m) {
+            return m.frequencyHz == event.frequencyHz && m.decayPerSecond == event.decayPerSecond;
+        });
+        unknown |= found == materials.end();
+        used.insert(static_cast<std::size_t>(found - materials.begin())); // of none: one behind them
     }
     for (const auto index : used) {
         if (index >= materials.size()) continue;

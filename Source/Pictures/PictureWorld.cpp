@@ -44,11 +44,10 @@ void drawFixture(const Canvas& canvas, const FixtureDescription& fixture, Colour
     canvas.graphics.setColour(colour);
     isLine ? canvas.graphics.strokePath(outline, 3.0f, move) : canvas.graphics.fillPath(outline, move);
     if (const auto* circle = std::get_if<CircleShape>(&fixture.shape)) {
-        Path spoke; // shows the rotation
-        spoke.startNewSubPath(0.0f, 0.0f);
-        spoke.lineTo(map.length(circle->radiusMetres), 0.0f);
+        // a spoke shows the rotation
         canvas.graphics.setColour(palette::well.withAlpha(0.5f));
-        canvas.graphics.strokePath(spoke, 1.5f, move);
+        canvas.graphics.strokePath(Path{}.startNewSubPath({}).lineTo(map.length(circle->radiusMetres), 0.0f),
+                                   1.5f, move);
     }
     if (!fixture.isCamera) return;
     canvas.graphics.setColour(palette::camera);
@@ -96,9 +95,9 @@ namespace {
 
 void drawGlows(const Canvas& canvas, const PictureInput& input, const HitColours& colours,
                const FieldMap& map, Area spill) {
-    const auto strongest = strongestEvent(input.events);
-    if (strongest < 0) return;
-    const double loudest = decibels(input.events[static_cast<std::size_t>(strongest)].amplitude);
+    const auto* const strongest = strongestEvent(input.events);
+    if (!strongest) return;
+    const double loudest = decibels(strongest->amplitude);
     Light hits(spill), traces(spill); // each exposed for itself: thousands of grains would outshine any hit
     for (const auto& event : input.events) {
         const auto level = static_cast<float>(1.0 + (decibels(event.amplitude) - loudest) / 40.0);
@@ -179,11 +178,6 @@ float closestPair(const PictureInput& input, const FieldMap& map) {
     return closest;
 }
 
-void drawDot(const Canvas& canvas, Spot centre, float size, Colour colour) {
-    canvas.graphics.setColour(colour);
-    canvas.graphics.fillEllipse(boxAround(centre, size, size));
-}
-
 void drawBadge(const Canvas& canvas, std::string_view label, Box badge, Colour colour) {
     canvas.graphics.setColour(palette::well);
     canvas.graphics.fillRounded(badge, 6.0f);
@@ -202,11 +196,14 @@ void drawEnchanters(const Canvas& canvas, const PictureInput& input, const Field
         const auto label = labelOf(input, c);
         const float width =
             std::max(size, static_cast<float>(canvas.textWidth(label, smallText, true)) + 14.0f);
-        const bool room = size >= 21.0f && width <= std::max(size, 0.8f * closest);
-        const auto badge = boxAround(centre, width, size);
-        room ? drawBadge(canvas, label, badge.constrainedWithin(panel.reduced(6).toFloat()),
-                         palette::enchanter(c))
-             : drawDot(canvas, centre, 0.7f * size, palette::enchanter(c));
+        if (size >= 21.0f && width <= std::max(size, 0.8f * closest)) {
+            const auto within = panel.reduced(6).toFloat();
+            drawBadge(canvas, label, boxAround(centre, width, size).constrainedWithin(within),
+                      palette::enchanter(c));
+        } else {
+            canvas.graphics.setColour(palette::enchanter(c));
+            canvas.graphics.fillEllipse(boxAround(centre, 0.7f * size, 0.7f * size));
+        }
     }
 }
 
@@ -216,9 +213,7 @@ std::string remarkOn(const PictureInput& input) {
     const std::string times = "\xc3\x97";
     const auto size =
         shortNumber(input.fieldWidthMetres) + " " + times + " " + shortNumber(input.fieldHeightMetres) + " m";
-    return input.scene != nullptr && strongestEvent(input.events) >= 0
-               ? size + ", bodies as at the strongest hit"
-               : size;
+    return input.scene != nullptr && !input.events.empty() ? size + ", bodies as at the strongest hit" : size;
 }
 
 } // namespace
@@ -230,7 +225,7 @@ void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours
     const auto heading = panel.removeFromTop(24), second = panel.removeFromBottom(20),
                first = panel.removeFromBottom(26);
     const auto map = fitField(input, panel.reduced(22, 22));
-    const auto strongest = strongestEvent(input.events);
+    const auto* const strongest = strongestEvent(input.events);
     {
         const Painter::Saved whole(canvas.graphics);
         canvas.graphics.reduceClip(spill);
@@ -240,16 +235,13 @@ void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours
         drawHalos(canvas, input, map);
         drawBodies(canvas, input, map);
         drawGlows(canvas, input, colours, map, spill);
-        if (strongest >= 0)
-            drawStrongest(canvas, input, map, input.events[static_cast<std::size_t>(strongest)]);
+        if (strongest) drawStrongest(canvas, input, map, *strongest);
         drawEnchanters(canvas, input, map, spill);
     }
     canvas.heading("WORLD", remarkOn(input), heading);
-    if (strongest < 0)
-        return canvas.text("Nothing was struck.", first, Align::left, palette::muted, mediumText);
-    const auto& hit = input.events[static_cast<std::size_t>(strongest)];
-    canvas.text(sentenceOn(hit), first, Align::left, palette::now, mediumText);
-    canvas.text(whoHitWhom(input, hit), second, Align::left, palette::muted);
+    if (!strongest) return canvas.text("Nothing was struck.", first, Align::left, palette::muted, mediumText);
+    canvas.text(sentenceOn(*strongest), first, Align::left, palette::now, mediumText);
+    canvas.text(whoHitWhom(input, *strongest), second, Align::left, palette::muted);
 }
 
 } // namespace physvib::picture

@@ -39,8 +39,8 @@ struct RenderMovie::Parts {
         lanes =
             page.removeFromBottom(lanesHeightPixels + headingHeight + axisHeight + 12).withTrimmedBottom(8);
         world = page.withTrimmedBottom(4);
-        if (const auto strongest = strongestEvent(input.events); strongest >= 0)
-            loudest = decibels(input.events[static_cast<std::size_t>(strongest)].amplitude);
+        if (const auto* const strongest = strongestEvent(input.events))
+            loudest = decibels(strongest->amplitude);
         Painter painter{still};
         painter.fillAll(palette::ground);
         const Canvas canvas{painter, letters};
@@ -54,11 +54,8 @@ struct RenderMovie::Parts {
         time = {0.0, input.durationSeconds, laneOf(canvas, input, area)};
         const auto grid = ticks(0.0, input.durationSeconds, 10);
         canvas.heading("ACTUATORS", input.waveform != nullptr ? fullHeight(*input.waveform) : "", heading);
-        if (input.waveform != nullptr) {
-            std::vector<int> channels(static_cast<std::size_t>(input.waveform->channels()));
-            for (std::size_t j = 0; j < channels.size(); ++j) channels[j] = static_cast<int>(j);
-            drawLanes(canvas, input, *input.waveform, channels, time, grid);
-        }
+        if (input.waveform != nullptr)
+            drawLanes(canvas, input, *input.waveform, everyChannelOf(*input.waveform), time, grid);
         time.drawLabels(canvas, grid, "s", axisRow);
     }
 

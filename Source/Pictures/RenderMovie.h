@@ -8,8 +8,7 @@
 #include <string>
 
 namespace physvib {
-/// The pictures of one render, in any order of time. One thread at a time; draws the same pixels for the same
-/// input and fonts.
+/// The pictures of one render, in any order; equal pixels for equal input and fonts. One thread at a time.
 class RenderMovie {
 public:
     static constexpr int picturesPerSecond = 20;
@@ -28,8 +27,7 @@ public:
         return index * (1'000'000'000 / picturesPerSecond);
     }
 
-    /// The picture of that moment, with bodies and joints where they are then; of another scene than the
-    /// input's, if one is given.
+    /// The picture of that moment, with bodies and joints where they are; of `scene` if it is given.
     picture::Image at(std::int64_t momentNs, const WorldPoses& poses, const Scene* scene = nullptr) const;
 
 private:
@@ -39,8 +37,7 @@ private:
 
 // Encoder of movies as animated WebP, by libwebp.
 
-/// Takes pictures of one size in the order of their times. One thread at a time. What libwebp refuses is
-/// thrown as std::runtime_error.
+/// Pictures of one size, by time. One thread at a time. What libwebp refuses is a std::runtime_error.
 class WebpMovie {
 public:
     WebpMovie(int width, int height);

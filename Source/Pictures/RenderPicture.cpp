@@ -55,23 +55,22 @@ void drawFooter(const Canvas& canvas, const PictureInput& input, Area row) {
 
 } // namespace
 
-std::ptrdiff_t strongestEvent(std::span<const CollisionEvent> events) noexcept {
+const CollisionEvent* strongestEvent(std::span<const CollisionEvent> events) noexcept {
     const auto found =
         std::ranges::max_element(events, {}, [](const auto& e) { return std::abs(e.amplitude); });
-    return found == events.end() ? -1 : found - events.begin();
+    return found == events.end() ? nullptr : &*found;
 }
 
 WorldPoses posesAtStrongest(const Scene& scene, const RunSettings& run,
                             std::span<const CollisionEvent> events) {
-    const auto strongest = strongestEvent(events);
-    if (strongest < 0) return {};
-    return posesAt(scene, run, events[static_cast<std::size_t>(strongest)].timeNs);
+    const auto* const strongest = strongestEvent(events);
+    return strongest ? posesAt(scene, run, strongest->timeNs) : WorldPoses{};
 }
 
 FrameWindow zoomWindow(std::span<const CollisionEvent> events, int sampleRateHz) noexcept {
-    const auto index = strongestEvent(events);
-    if (index < 0) return {};
-    const double onset = static_cast<double>(events[static_cast<std::size_t>(index)].timeNs) * 1e-9;
+    const auto* const strongest = strongestEvent(events);
+    if (!strongest) return {};
+    const double onset = static_cast<double>(strongest->timeNs) * 1e-9;
     return {std::llround((onset - 0.010) * sampleRateHz), std::llround(0.100 * sampleRateHz)};
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A picture of a render: the world and its impacts, the signal of each actuator, and a close-up of the
-// strongest impact.
+// A picture of a render: the world and its impacts, each actuator's signal, the strongest impact enlarged.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
@@ -34,8 +33,8 @@ struct PictureInput {
     std::string provenance; ///< version, seed, source: what it takes to make this again
 };
 
-/// Index of the event with the largest |amplitude|, the first of equals; -1 without events. Any thread.
-std::ptrdiff_t strongestEvent(std::span<const CollisionEvent> events) noexcept;
+/// The event with the largest |amplitude|, the first of equals; null without events. Any thread.
+const CollisionEvent* strongestEvent(std::span<const CollisionEvent> events) noexcept;
 
 /// Where the bodies of a scene stand at its strongest event; none if nothing was struck. Any thread.
 WorldPoses posesAtStrongest(const Scene& scene, const RunSettings& run,

@@ -8,8 +8,7 @@
 #include <vector>
 
 namespace physvib {
-/// A path of JUCE or of our pictures, in pixels about the shape's own origin, y downwards; however small, it
-/// stays visible. Any thread.
+/// A path of JUCE or of our pictures, in pixels about its own origin, y down, never too small. Any thread.
 template <class Path>
 Path shapeOutline(const Shape& shape, double pixelsPerMetre) {
     Path path;

@@ -19,10 +19,9 @@ Clip scene() {
     clip.title = "hits";
     clip.extentWidthMetres = 0.12;
     clip.extentHeightMetres = 0.06;
-    constexpr EnchanterPlace places[] = {{0.0, 0.06}, {0.12, 0.06}, {0.0, 0.0}, {0.12, 0.0}};
     for (std::size_t j = 0; j < 4; ++j) {
         clip.channels[j].label = std::string(1, static_cast<char>('A' + j));
-        clip.channels[j].place = places[j];
+        clip.channels[j].place = EnchanterPlace{j % 2 == 0 ? 0.0 : 0.12, j < 2 ? 0.06 : 0.0};
     }
     return clip;
 }
@@ -125,20 +124,16 @@ TEST(HjifFile, ReadsWhatMpegsEncoderCallsOther) {
     };
     const std::string effects =
         R"("effects": [{"effect_type": "Basis", "position": 10, "keyframes": [{"relative_position": 0, "amplitude_modulation": 1, "frequency_modulation": 90}, {"relative_position": 5, "amplitude_modulation": 1}]}]})";
-    EXPECT_EQ(
-        read(perceptions("Other", R"({"band_type": "Transient", )" + effects)).channels[0].transients.size(),
-        2u);
-    EXPECT_EQ(
-        read(perceptions("Other", R"({"band_type": "VectorialWave", )" + effects)).channels[0].bands.size(),
-        1u);
-    const std::string none = "f: perceptions: expected a vibrotactile perception with channels, found none";
-    EXPECT_EQ(refusal(perceptions("Other", R"({"band_type": "Curve", )" + effects)),
-              none); // a force, a position
-    EXPECT_EQ(refusal(perceptions("Other", R"({"band_type": "VectorialWave", )" + effects +
-                                               R"(, {"band_type": "WaveletWave"})")),
-              none);
-    EXPECT_EQ(refusal(perceptions("Force", R"({"band_type": "VectorialWave", )" + effects)), none);
-    std::string both = perceptions("Vibrotactile", R"({"band_type": "VectorialWave", )" + effects);
+    const std::string transients = R"({"band_type": "Transient", )" + effects,
+                      waves = R"({"band_type": "VectorialWave", )" + effects,
+                      curve = R"({"band_type": "Curve", )" + effects; // a force, a position
+    EXPECT_EQ(read(perceptions("Other", transients)).channels[0].transients.size(), 2u);
+    EXPECT_EQ(read(perceptions("Other", waves)).channels[0].bands.size(), 1u);
+    for (const auto& none : {perceptions("Other", curve), perceptions("Force", waves),
+                             perceptions("Other", waves + R"(, {"band_type": "WaveletWave"})")})
+        EXPECT_EQ(refusal(none),
+                  "f: perceptions: expected a vibrotactile perception with channels, found none");
+    std::string both = perceptions("Vibrotactile", waves);
     both.insert(both.size() - 2, R"(, {"perception_modality": "Force", "channels": []})");
     EXPECT_EQ(read(both).leftOut, "left out: a perception of Force (1)");
 }
@@ -158,24 +153,20 @@ TEST(HjifFile, RefusesInOneLine) {
               "f: timescale: expected at least one tick per second, found 0");
     EXPECT_EQ(refusal(R"({"perceptions": [{"perception_modality": "Temperature"}]})"),
               "f: perceptions: expected a vibrotactile perception with channels, found none");
-    EXPECT_EQ(refusal(file(R"({"band_type": "WaveletWave", "effects": []})")),
-              "f: perceptions[0].channels[0].bands[0].band_type: expected waves, transients or curves, found "
-              "wavelets, which are not read");
-    EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Composite"})"))),
-              "f: perceptions[0].channels[0].bands[0].effects[0].effect_type: expected one of Basis, "
-              "Reference, found \"Composite\"");
-    EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Reference", "id": 1})"))),
-              "f: perceptions[0].channels[0].bands[0].effects[0].id: expected an effect of the library, "
-              "found none of that number");
-    EXPECT_EQ(
-        refusal(file(vectorial(
-            R"({"effect_type": "Basis", "keyframes": [{"relative_position": 9}, {"relative_position": 8}]})"))),
-        "f: perceptions[0].channels[0].bands[0].effects[0].keyframes[1].relative_position: expected "
-        "keyframes in time order");
     EXPECT_EQ(refusal(file("")), "f: perceptions: expected something to feel, found silence");
-    EXPECT_EQ(refusal(file(vectorial(R"({"effect_type": "Basis", "position": 1e9, "keyframes": []})"))),
-              "f: perceptions[0].channels[0].bands[0].effects[0].position: expected a number from 0 to "
-              "6e+05, found 1000000000.0");
+    const std::string band = "f: perceptions[0].channels[0].bands[0].";
+    EXPECT_EQ(refusal(file(R"({"band_type": "WaveletWave", "effects": []})")),
+              band + "band_type: expected waves, transients or curves, found wavelets, which are not read");
+    for (const auto& [effect, error] :
+         {std::pair{R"({"effect_type": "Composite"})",
+                    "effect_type: expected one of Basis, Reference, found \"Composite\""},
+          {R"({"effect_type": "Reference", "id": 1})",
+           "id: expected an effect of the library, found none of that number"},
+          {R"({"effect_type": "Basis", "keyframes": [{"relative_position": 9}, {"relative_position": 8}]})",
+           "keyframes[1].relative_position: expected keyframes in time order"},
+          {R"({"effect_type": "Basis", "position": 1e9, "keyframes": []})",
+           "position: expected a number from 0 to 6e+05, found 1000000000.0"}})
+        EXPECT_EQ(refusal(file(vectorial(effect))), band + "effects[0]." + error);
 }
 
 TEST(HjifFile, RefusesAMillionKeyframes) {
@@ -189,8 +180,7 @@ TEST(HjifFile, RefusesAMillionKeyframes) {
               std::string::npos);
 }
 
-// Control points for Android: what a phone makes of the file, by the builder's documented formula, against
-// the channel's envelope.
+// Android's control points: what a phone makes of them, by its documented formula, against the envelope.
 
 using nlohmann::json;
 
@@ -296,7 +286,6 @@ TEST(AndroidEnvelope, EveryPhoneTakesItsPointsAndASilenceHasNone) {
 }
 
 TEST(AndroidEnvelope, ItIsWrittenAndNotRead) {
-    EXPECT_EQ(clipFormatOf("a.ENVELOPE"), ClipFormat::envelope);
     EXPECT_EQ(readClip("{}", "a.envelope", ClipFormat::envelope).error,
               "a.envelope: Android's envelopes are written, not read");
 }

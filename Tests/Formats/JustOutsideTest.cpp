@@ -230,9 +230,9 @@ TEST(StrikeClip, HasOneWaveOfAModeAtATime) {
 TEST(StrikeClip, LeavesNothingBehindACut) {
     CollisionEvent cut{1'000'000, 200.0, 0.0, 0.5, 0.5, 0.5, 20'000'000};
     const Clip clip = clipOf({&cut, 1}, 0.004);
-    ASSERT_EQ(clip.channels[0].bands.size(), 1u);
-    ASSERT_EQ(clip.channels[0].bands[0].waves.size(), 1u);
-    EXPECT_EQ(clip.channels[0].bands[0].waves[0].amplitude.size(), 2u);
+    const auto& bands = clip.channels[0].bands;
+    ASSERT_TRUE(bands.size() == 1 && bands[0].waves.size() == 1);
+    EXPECT_EQ(bands[0].waves[0].amplitude.size(), 2u);
     EXPECT_NEAR(clip.seconds(), 0.021, 1.0 / rateHz);
 }
 
@@ -243,6 +243,13 @@ TEST(StrikeClip, LeavesOutWhatAnEnchanterDoesNotGet) {
     for (std::size_t j = 1; j < 4; ++j) EXPECT_TRUE(clip.channels[j].bands.empty());
 }
 
+/// What one wave plays.
+std::vector<float> soundOf(const ClipWave& wave, int sampleRateHz) {
+    Clip clip;
+    clip.channels.emplace_back().bands.push_back({{wave}});
+    return clipSound(clip, sampleRateHz).channels[0];
+}
+
 TEST(ClipSound, PlaysEveryWaveform) {
     constexpr double expected[5][4] = {{0.0, 1.0, 0.0, -1.0},
                                        {1.0, 1.0, -1.0, -1.0},
@@ -250,34 +257,14 @@ TEST(ClipSound, PlaysEveryWaveform) {
                                        {0.0, 0.5, -1.0, -0.5},
                                        {0.0, -0.5, 1.0, 0.5}};
     for (int w = 0; w < 5; ++w) {
-        Clip clip{
-            "",
-            0,
-            0,
-            {ClipChannel{
-                "A",
-                {},
-                {},
-                {{{ClipWave{
-                    0.0, 0.0, static_cast<ClipWaveform>(w), {{0.0, 1.0}, {1.0, 1.0}}, {{0.0, 1000.0}}}}}},
-                {}}}};
-        const auto sound = clipSound(clip, 4000);
-        for (std::size_t n = 0; n < 4; ++n)
-            EXPECT_NEAR(sound.channels[0][n], expected[w][n], 1e-6) << w << ' ' << n;
+        const auto sound = soundOf(
+            {0.0, 0.0, static_cast<ClipWaveform>(w), {{0.0, 1.0}, {1.0, 1.0}}, {{0.0, 1000.0}}}, 4000);
+        for (std::size_t n = 0; n < 4; ++n) EXPECT_NEAR(sound[n], expected[w][n], 1e-6) << w << ' ' << n;
     }
 }
 
 TEST(ClipSound, FollowsAFrequencyThatGlides) {
-    Clip clip{
-        "",
-        0,
-        0,
-        {ClipChannel{"A",
-                     {},
-                     {},
-                     {{{ClipWave{0.25, 0.5, {}, {{0.0, 1.0}, {1.0, 0.5}}, {{0.1, 100.0}, {0.6, 300.0}}}}}},
-                     {}}}};
-    const auto sound = clipSound(clip, 8000);
+    const auto sound = soundOf({0.25, 0.5, {}, {{0.0, 1.0}, {1.0, 0.5}}, {{0.1, 100.0}, {0.6, 300.0}}}, 8000);
     const auto phase = [](double t) { // 100 Hz, a glide of 400 Hz per second, 300 Hz
         const double glide = std::clamp(t - 0.1, 0.0, 0.5);
         return 0.5 +
@@ -285,7 +272,7 @@ TEST(ClipSound, FollowsAFrequencyThatGlides) {
     };
     for (std::size_t n = 2000; n < 10000; n += 37) {
         const double t = static_cast<double>(n) / 8000 - 0.25;
-        EXPECT_NEAR(sound.channels[0][n], (1.0 - 0.5 * t) * std::sin(phase(t)), 1e-6) << n;
+        EXPECT_NEAR(sound[n], (1.0 - 0.5 * t) * std::sin(phase(t)), 1e-6) << n;
     }
 }
 

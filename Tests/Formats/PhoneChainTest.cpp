@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A folder of .haptic files with every feature of the format, through .ahap and back: each transient stays
-// what it was.
+// A folder of .haptic files with every feature, through .ahap and back: each transient stays what it was.
 #include "Formats/ClipFile.h"
 #include "Formats/EnvelopeFile.h"
 #include <array>
@@ -16,8 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Envelopes from nothing to full scale, steps, points at one time, late beginnings, and emphasis wherever
-/// the format has it.
+/// Envelopes from nothing to full scale, steps, points at one time, late beginnings, emphasis everywhere.
 class HapticFolder {
 public:
     static constexpr int files = 64;

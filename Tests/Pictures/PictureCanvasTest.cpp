@@ -94,18 +94,19 @@ TEST(Painter, EdgesAreSmoothAndClipped) {
     EXPECT_EQ(image.at(0, 15).red, 0); // flat ends
 }
 
-} // namespace
-} // namespace physvib::picture
-
-namespace physvib::picture {
-namespace {
-
 CollisionEvent sounding(double frequencyHz, double decayPerSecond = 20.0) {
     CollisionEvent event;
     event.frequencyHz = frequencyHz;
     event.decayPerSecond = decayPerSecond;
     event.amplitude = 0.5;
     return event;
+}
+
+PictureInput inputOf(std::span<const CollisionEvent> events, const Scene* scene = nullptr) {
+    PictureInput input;
+    input.events = events;
+    input.scene = scene;
+    return input;
 }
 
 Scene twoMaterials() {
@@ -118,10 +119,7 @@ Scene twoMaterials() {
 TEST(HitColours, TellTheMaterialByItsSound) {
     const auto scene = twoMaterials();
     const std::vector<CollisionEvent> events{sounding(80.0, 34.0), sounding(430.0, 12.0)};
-    PictureInput input;
-    input.scene = &scene;
-    input.events = events;
-    const HitColours colours(input);
+    const HitColours colours(inputOf(events, &scene));
     EXPECT_EQ(colours.of(events[0]), palette::material(1));
     EXPECT_EQ(colours.of(events[1]), palette::material(0));
     ASSERT_EQ(colours.classes().size(), 3u); // and the strongest
@@ -133,28 +131,22 @@ TEST(HitColours, TellTheMaterialByItsSound) {
 TEST(HitColours, ASoundOfNoMaterialIsOther) {
     const auto scene = twoMaterials();
     const std::vector<CollisionEvent> events{sounding(430.0, 13.0)}; // another decay
-    PictureInput input;
-    input.scene = &scene;
-    input.events = events;
-    const HitColours colours(input);
+    const HitColours colours(inputOf(events, &scene));
     EXPECT_EQ(colours.of(events[0]), palette::other);
     EXPECT_EQ(colours.classes()[1].name, "other");
 }
 
 TEST(HitColours, MaterialsThatDoNotOccurAreNotExplained) {
     const auto scene = twoMaterials();
-    PictureInput input;
-    input.scene = &scene;
-    ASSERT_EQ(HitColours(input).classes().size(), 1u); // the floor's
+    ASSERT_EQ(HitColours(inputOf({}, &scene)).classes().size(), 1u); // the floor's
 }
 
 TEST(HitColours, OfAGloveTellTheFinger) {
     std::vector<CollisionEvent> events{sounding(205.0), sounding(205.0)};
     events[0].source.part = partNamed("middle"), events[1].source.part = partNamed("thumb");
-    PictureInput input;
+    PictureInput input = inputOf(events);
     input.layout.count = static_cast<int>(gloveTips.size());
     std::ranges::copy(gloveTips, input.layout.places.begin());
-    input.events = events;
     const HitColours colours(input);
     EXPECT_EQ(colours.of(events[0]), palette::enchanter(2));
     EXPECT_EQ(colours.of(events[1]), palette::enchanter(0));
@@ -168,9 +160,7 @@ TEST(HitColours, OfAGloveTellTheFinger) {
 
 TEST(HitColours, WithoutASceneFewFrequenciesAreNamed) {
     const std::vector<CollisionEvent> events{sounding(205.0), sounding(80.0), sounding(205.0)};
-    PictureInput input;
-    input.events = events;
-    const HitColours colours(input);
+    const HitColours colours(inputOf(events));
     ASSERT_EQ(colours.classes().size(), 3u);
     EXPECT_EQ(colours.classes()[0].name, "80 Hz");
     EXPECT_EQ(colours.classes()[1].name, "205 Hz");
@@ -181,9 +171,7 @@ TEST(HitColours, WithoutASceneFewFrequenciesAreNamed) {
 TEST(HitColours, WithoutASceneManyFrequenciesAreOctaves) {
     std::vector<CollisionEvent> events;
     for (int i = 1; i < 100; ++i) events.push_back(sounding(10.0 * i));
-    PictureInput input;
-    input.events = events;
-    const HitColours colours(input);
+    const HitColours colours(inputOf(events));
     EXPECT_EQ(colours.of(sounding(30.0)), palette::ramp(0));
     EXPECT_EQ(colours.of(sounding(205.0)), palette::ramp(3));
     EXPECT_EQ(colours.of(sounding(900.0)), palette::ramp(5));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every point of every parameter acts at its frame: what is played follows from what the host says, not from
-// how it cuts its blocks.
+// Every point of every parameter acts at its frame, however the host cuts its blocks.
 #include "PluginTesting.h"
 #include <array>
 
@@ -271,13 +270,11 @@ TEST(Automation, AMessageBehindTheBlocksEndIsPlayedAtItsLastFrameAndCounted) {
     EXPECT_EQ(displaced, 1u);
 }
 
-// What automation says last is what is felt: however much of it there is, and however far the host's blocks
-// are from what it told.
+// What automation says last is felt: however much there is, and however far blocks are from those announced.
 
 using Message = juce::MidiMessage;
 
-/// Enchanters in a line of an empty world, in blocks that are much smaller than announced: L is long,
-/// controls are many.
+/// Enchanters in a line, in blocks much smaller than announced: L is long, controls are many.
 struct AutomatedHost : TestHost {
     AutomatedHost(int channels, double rate, int size)
         : frames{size} {

@@ -100,8 +100,7 @@ TEST(Latency, TheTimingChangesWhileItPlaysWithoutANewRun) {
     EXPECT_LT(step, usual + 0.01f) << "nothing clicks";
 }
 
-// Direct strikes: what a note strikes is felt as soon as it can be, the host is told so, and a bounce is what
-// was played.
+// Direct strikes: felt as soon as they can be, the host knows, and a bounce is what was played.
 
 int lookAheadFrames() { return HapticRenderer::latencyFramesAt(48000); }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plug-in's mix: trims, mutes, solos, polarity, delays, ceilings and equalisers, in a bounce, live, and
-// while it plays.
+// The plug-in's mix, from trims to equalisers, in a bounce, live, and while it plays.
 #include "Io/Disk/ReadFile.h"
 #include "Live/Session/OfflineRender.h"
 #include "PluginTesting.h"
@@ -26,8 +25,7 @@ PluginState mixedState() {
     return s;
 }
 
-/// The same without a session or a host: the offline renderer, as of `physvib render`, with the mix from time
-/// 0 on.
+/// The same by the offline renderer, as of `physvib render`, with the mix from time 0 on.
 Samples renderedMix(const PluginState& s, std::int64_t frames) {
     const auto made = runScene(s.scene, {s.seed, s.stepsPerSecond}, frames * 1'000'000'000 / 48000 + 1);
     std::vector<RenderControl> controls;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The side chain's own low frequencies on the actuators: what of them, where, how loud, and the same in
-// blocks of any size.
+// The side chain's own low frequencies on the actuators: which, where, how loud, in blocks of any size.
 #include "Host/Music/BeatDetector.h"
 #include "MusicInput.h"
 #include "PluginTesting.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files of one's own in the plug-in: a scene, a layout, a mixer's session; what is wrong leaves everything as
-// it was.
+// Files of one's own in the plug-in: a scene, a layout, a mixer's session; what is wrong changes nothing.
 #include "Io/Disk/AtomicFile.h"
 #include "Live/Documents/SessionFile.h"
 #include "PluginFiles.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hosts that call faster or slower than time, in bursts, with pauses, in blocks of any size, and that call a
-// bounce what is none or not what is one: what is played is the bounce to the bit, by the latency that was
-// told at first.
+// bounce what is none or not what is one: it is the bounce to the bit, by the latency that was said at first.
 #include "PluginEditor.h"
 #include "PluginTesting.h"
 #include <functional>
@@ -11,8 +10,7 @@ namespace {
 
 using namespace test;
 
-/// A host on a clock that the test moves: the worlds are stepped every 5 ms of it, whatever the host asks
-/// for.
+/// A host on a clock that the test moves: worlds are stepped every 5 ms of it, whatever the host asks for.
 class PacedHost : public TestHost {
 public:
     explicit PacedHost(const PluginState& state)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The editor without a window: fifty openings, sizes, what it costs. PHYSVIB_PICTURES: a folder for the
-// picture of Docs.
+// The editor without a window: fifty openings, sizes, its cost. PHYSVIB_PICTURES: a folder for Docs' picture.
 #include "PluginEditor.h"
 #include "Host/Views/Look.h"
 #include "PluginTesting.h"

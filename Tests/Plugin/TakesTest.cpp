@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What takes owe each other: nothing is cut, settings travel inside, ended ones are used again, none is made
-// in the way of others.
+// What takes owe each other: nothing is cut, settings travel inside, ended ones return, none is in the way.
 #include "PluginTesting.h"
 #include "Session/FakeHost.h"
 #include "Support/Growth.h"
@@ -213,8 +212,7 @@ TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
     EXPECT_FALSE(hasWaitedInVain) << "the world stood still for as long as the other was made";
 }
 
-/// The processor time of a tick that owes half a second of the heap's world, and is released after so much of
-/// it.
+/// The processor time of a tick that owes half a second of the heap's world, released after so much of it.
 double tickMicroseconds(double releasedAfter = HUGE_VAL) {
     TestHost host{heap(200)};
     host.plugin->takes().driveByHand();
@@ -239,8 +237,7 @@ double tickMicroseconds(double releasedAfter = HUGE_VAL) {
 TEST(Takes, ReleaseWaitsForOneStepOfAHeavyWorldNotForAllThatAreOwed) {
     const double whole = tickMicroseconds();
     double least = whole;
-    // On a busy machine whoever releases may come late, but not always; a tick that does not listen takes the
-    // whole of it each time.
+    // A release may come late on a busy machine, not always; who does not listen takes the whole each time.
     for (int attempt = 0; attempt < 200 && least > 0.75 * whole; ++attempt)
         least = std::min(least, tickMicroseconds(0.1 * whole));
     EXPECT_LT(least, 0.75 * whole) << "of " << whole << " us";

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What automation and notes do to the world: gravity, tilt, materials, pushes, spawned discs; each felt, each
-// repeatable.
+// What automation and notes do to the world: gravity, tilt, materials, pushes, discs; each felt, repeatable.
 #include "PluginTesting.h"
 #include "Scene/SceneFile.h"
 #include <set>

@@ -48,8 +48,8 @@ struct NoteRule {
     int material = 0; ///< strike, spawn: index into Scene::materials
     double x = 0.5;   ///< strike, spawn: place in the field, 0 to 1 from its lower left corner
     double y = 0.5;
-    std::string object;        ///< push: name of a body the scene starts with
-    Vector atFullVelocity;     ///< push: N s; spawn: m/s
+    std::string object{};      ///< push: name of a body the scene starts with
+    Vector atFullVelocity{};   ///< push: N s; spawn: m/s
     double radiusMetres = 0.1; ///< spawn
     bool operator==(const NoteRule&) const = default;
 };

@@ -200,13 +200,11 @@ TEST(Clap, NotesAndPointsAreTheProcessorsSamplesToTheBit) {
     PluginProcessor own{"PhysVib", {}};
     restore(own, text);
     own.setNonRealtime(true);
-    own.setRateAndBufferSizeDetails(48000, block);
-    own.prepareToPlay(48000, block);
+    auto buffer = prepareBlocks(own, block);
     host.note(CLAP_EVENT_NOTE_ON, 1, 48, 100);
     host.set(Parameter::level, -6.0, 256);
     const auto signal = host.play(60);
     Samples expected(4);
-    juce::AudioBuffer<float> buffer{4, block};
     for (int part = 0; part < 120; ++part) { // the same level from the second half of the first block on
         auto midi = part == 0 ? oneNote(48, 127, 100) : juce::MidiBuffer{};
         if (part == 1)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Opens the editor in a window of a display, again and again, while the plug-in plays; fails if a window does
-// not come or if the memory in use grows from one opening to the next. Run by openings.sh. Usage:
-// physvib-editor-openings COUNT
+// Opens the editor in a window, again and again, while the plug-in plays; fails if a window does not come or
+// if the memory in use grows. Run by openings.sh. Usage: physvib-editor-openings COUNT
 #include "Host/MessageLoop.h"
 #include "PluginProcessor.h"
 #include <cstdio>

@@ -12,11 +12,9 @@ using namespace test;
 Samples blocksOf(juce::AudioProcessor& plugin, int frames, bool withNotes,
                  const std::function<void()>& prepared = {}) {
     plugin.setNonRealtime(true);
-    plugin.setRateAndBufferSizeDetails(48000.0, 512);
-    plugin.prepareToPlay(48000.0, 512);
+    auto buffer = prepareBlocks(plugin, 512);
     if (prepared) prepared();
     Samples signal(static_cast<std::size_t>(plugin.getTotalNumOutputChannels()));
-    juce::AudioBuffer<float> buffer(static_cast<int>(signal.size()), 512);
     for (int done = 0; done < frames; done += 512) {
         auto midi = withNotes ? oneNote(36 + done / 512 % 60, 100, done / 512 % 512) : juce::MidiBuffer{};
         buffer.clear();
@@ -80,8 +78,7 @@ TEST(HostedFormats, StateGoesThroughTheFormats) {
             ++world;
         ASSERT_LT(world, first->getNumPrograms()) << identifier;
         first->setCurrentProgram(world);
-        // Hosts hand parameters over with a block; JUCE's makes an LV2 anew when it prepares, by what it
-        // handed over.
+        // Hosts hand parameters over with a block; JUCE's makes an LV2 anew from them when it prepares.
         blocksOf(*first, 512, false, [&first] { named(*first, "Level")->setValue(1.0f); });
         restore(*second, chunkOf(*first));
         const auto a = blocksOf(*first, 48'128, false), b = blocksOf(*second, 48'128, false);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// While an LV2's window is open, it writes the ports of parameters that something else has moved: hosts
-// show what counts. Needs a display.
+// An open LV2 window writes the ports of parameters that something else has moved. Needs a display.
 #include "Plugin/Formats/RawLv2.h"
 #include <cstdlib>
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The processor, or a finished module of it in JUCE's host, that plays notes in every block: there is always
-// something to silence.
+// The processor, or a finished module of it in JUCE's host, that plays notes in every block.
 #pragma once
 #include "Plugin/PluginTesting.h"
 #include <juce_audio_processors/juce_audio_processors.h>
@@ -45,8 +44,7 @@ constexpr int block = 512, ramp = 480;
 
 enum class Kind { processor, vst3, lv2 };
 
-/// The processor itself or a module of it, that plays: notes in every block, so that there is always
-/// something to silence.
+/// The processor or a module of it, with notes in every block: there is always something to silence.
 class Player {
 public:
     explicit Player(Kind kindOf)
@@ -66,9 +64,7 @@ public:
 
     void prepare(bool isOffline) {
         plugin().setNonRealtime(isOffline);
-        plugin().setRateAndBufferSizeDetails(48000.0, block);
-        plugin().prepareToPlay(48000.0, block);
-        buffer_.setSize(plugin().getTotalNumOutputChannels(), block);
+        buffer_ = prepareBlocks(plugin(), block);
     }
     /// The largest sample from frame `from` of the first block on.
     float peakOf(int blocks, int from = 0) {

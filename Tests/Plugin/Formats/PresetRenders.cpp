@@ -18,8 +18,8 @@ using namespace physvib;
 
 constexpr int rateHz = 48000, block = 480, seconds = 10, blocks = rateHz / block * seconds;
 
-/// A key every half second through the notes that the preset names, or two octaves; held ones for 0.4 s, with
-/// a bend and a slide on every fourth.
+/// A key every half second through the preset's notes, or two octaves, for 0.4 s; every fourth is bent and
+/// slid.
 juce::MidiBuffer phrase(const PluginState& state, int at) {
     constexpr int blocksPerNote = 50, heldBlocks = 40;
     juce::MidiBuffer midi;

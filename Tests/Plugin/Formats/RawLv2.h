@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The least an LV2 host can be: one instance of a module of four channels, its ports, blocks. Does only what
-// it is told.
+// The least an LV2 host can be: one instance of a module of four channels, its ports, blocks, on demand.
 #pragma once
 #include "Parameters.h"
 #include <array>

@@ -65,14 +65,17 @@ TEST(RawLv2, TheHostsSwitchSilencesWithinABlockAndItsRamp) {
     EXPECT_GT(std::ranges::max(host.play(300, block)), 0.001f);
 }
 
-float loudestOf(const std::vector<float>& signal) {
-    float most = 0.0f;
-    for (const float x : signal) most = std::max(most, std::abs(x));
-    return most;
+float loudestOf(const std::vector<float>& signal) { return peakOf(Samples{signal}); }
+
+constexpr std::array widths{"", "-2", "-8", "-16", "-Music"};
+
+/// What a module of that width says of itself.
+std::string descriptionOf(const std::string& width, const char* file = "dsp.ttl") {
+    std::ifstream in{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/" + file};
+    return {std::istreambuf_iterator<char>{in}, {}};
 }
 
-/// What all enchanters together play in blocks of `size(i)` frames, of which each has what `say(at, frames)`
-/// adds.
+/// What all enchanters together play in blocks of `size(i)` frames, each with what `say(at, frames)` adds.
 template <class Size, class Say>
 std::vector<float> together(RawLv2& host, std::int64_t length, Size size, Say say) {
     std::vector<float> signal;
@@ -276,8 +279,7 @@ TEST(RawLv2, APortThatIsOtherThanWhenTheStateWasSavedCounts) {
     PlayingLv2 first, second;
     first.controls[control(Parameter::level)] = -30.0f;
     first.run(block);
-    const SavedSession session{first};
-    second.restore(session.state);
+    second.restore(first.save());
     second.controls[control(Parameter::level)] = -40.0f; // the host has kept a newer one
     second.run(block);
     EXPECT_NEAR(valueOf(second, "level"), -40.0, 1e-5);
@@ -311,11 +313,8 @@ TEST(RawLv2, APortThatHoldsNoNumberIsNoneAndAnAbsurdOneIsTheNearest) {
 }
 
 TEST(RawLv2, DescriptionsHaveAPortForEachParameterBehindJucesOwnAndNoProperty) {
-    constexpr std::array<std::pair<const char*, int>, 5> modules{
-        {{"", 9}, {"-2", 7}, {"-8", 13}, {"-16", 21}, {"-Music", 11}}};
-    for (const auto& [width, first] : modules) {
-        std::ifstream file{std::string{PHYSVIB_PLUGINS "/PhysVib"} + width + ".lv2/dsp.ttl"};
-        const std::string text{std::istreambuf_iterator<char>{file}, {}};
+    for (std::size_t w = 0; const int first : {9, 7, 13, 21, 11}) {
+        const std::string width = widths[w++], text = descriptionOf(width);
         for (const auto& row : allParameters()) {
             const std::string index = std::to_string(first + static_cast<int>(row.parameter));
             const auto port = "lv2:index " + index + " ;\n\t\tlv2:symbol \"" + std::string{row.id} + "\" ;";
@@ -333,23 +332,20 @@ TEST(RawLv2, MusicAtItsTwoPortsIsFeltAsInTheProcessor) {
     ASSERT_TRUE(host.isLoaded());
     TestHost processor{{BusPlan::Kind::oneBus, 4, true}};
     processor.plugin->setCurrentProgram(0);
-    for (const auto& row : allParameters())
-        processor.plugin->parameter(row.parameter).setValue(static_cast<float>(normalised(row, row.initial)));
+    for (const auto& row : allParameters()) processor.setToDefault(row.parameter);
     processor.prepare(48000, block);
     host.activate();
     float left = 0.0f, right = 0.0f;
     for (int b = 0; b < 60; ++b) {
         if (b == 1) {
-            processor.plugin->parameter(Parameter::music)
-                .setValue(static_cast<float>(normalised(rowOf(Parameter::music), -3.0)));
-            processor.plugin->parameter(Parameter::musicSides).setValue(1.0f);
+            processor.set(Parameter::music, -3.0);
+            processor.set(Parameter::musicSides, 1.0);
             host.points.push_back({0, "music", -3.0f});
             host.points.push_back({0, "music_sides", 1.0f});
         }
-        for (int c = 0; c < 2; ++c)
-            for (int n = 0; n < block; ++n)
-                host.music[static_cast<std::size_t>(c)][static_cast<std::size_t>(n)] =
-                    c == 0 ? 0.8f * std::sin(0.013f * static_cast<float>(b * block + n)) : 0.0f;
+        for (int n = 0; n < block; ++n) // the other channel is silent
+            host.music[0][static_cast<std::size_t>(n)] =
+                0.8f * std::sin(0.013f * static_cast<float>(b * block + n));
         for (int c = 0; c < 2; ++c)
             processor.buffer.copyFrom(c, 0, host.music[static_cast<std::size_t>(c)].data(), block);
         host.run(block);
@@ -366,12 +362,10 @@ TEST(RawLv2, MusicAtItsTwoPortsIsFeltAsInTheProcessor) {
     host.deactivate();
 }
 
-// As lv2apply, ecasound and Audacity: audio and controls, no feature, and what they do not know is not
-// connected.
+// As lv2apply, ecasound and Audacity: audio and controls, no feature, and nothing else is connected.
 TEST(RawLv2, AHostThatKnowsTheCoreAloneNeedsNothingElse) {
-    for (const std::string width : {"", "-2", "-8", "-16", "-Music"}) {
-        std::ifstream file{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/dsp.ttl"};
-        const std::string text{std::istreambuf_iterator<char>{file}, {}};
+    for (const std::string width : widths) {
+        const auto text = descriptionOf(width);
         EXPECT_EQ(text.find("requiredFeature"), std::string::npos) << width;
         const bool isEffect = width == "-Music";
         EXPECT_EQ(text.find("a lv2:FilterPlugin") != std::string::npos, isEffect) << width;
@@ -414,8 +408,7 @@ TEST(RawLv2, AHostThatKnowsTheCoreAloneNeedsNothingElse) {
             audio[0][n] = audio[1][n] =
                 0.5f * std::sin(0.0105f * static_cast<float>(b * block) + 0.0105f * static_cast<float>(n));
         plugin->run(handle, block);
-        for (std::size_t c = 0; c < peaks.size(); ++c)
-            for (const float x : audio[2 + c]) peaks[c] = std::max(peaks[c], std::abs(x));
+        for (std::size_t c = 0; c < peaks.size(); ++c) peaks[c] = std::max(peaks[c], loudestOf(audio[2 + c]));
     }
     for (const float peak : peaks) EXPECT_GT(peak, 0.05f);
     if (plugin->deactivate) plugin->deactivate(handle);
@@ -424,14 +417,11 @@ TEST(RawLv2, AHostThatKnowsTheCoreAloneNeedsNothingElse) {
 }
 
 TEST(RawLv2, DescriptionsHaveFloatsAndNoEmptyAddresses) {
-    for (const std::string width : {"", "-2", "-8", "-16", "-Music"}) {
-        std::ifstream file{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/dsp.ttl"};
-        const std::string text{std::istreambuf_iterator<char>{file}, {}};
+    for (const std::string width : widths) {
+        const auto text = descriptionOf(width);
         ASSERT_FALSE(text.empty()) << width;
         EXPECT_NE(text.find(", doap:Project ;"), std::string::npos) << width << ": what has a maintainer";
-        std::ifstream presets{PHYSVIB_PLUGINS "/PhysVib" + width + ".lv2/manifest.ttl"};
-        EXPECT_NE((std::string{std::istreambuf_iterator<char>{presets}, {}}).find("rdfs:label \"Program\""),
-                  std::string::npos)
+        EXPECT_NE(descriptionOf(width, "manifest.ttl").find("rdfs:label \"Program\""), std::string::npos)
             << width << ": what presets set";
         EXPECT_EQ(text.find("<>"), std::string::npos) << width << ": that is the file itself";
         EXPECT_NE(text.find("bufs:nominalBlockLength"), std::string::npos) << width;

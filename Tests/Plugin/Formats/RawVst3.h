@@ -27,60 +27,57 @@
 namespace physvib::test {
 
 namespace vst = Steinberg::Vst;
-using Steinberg::kResultOk;
+using Steinberg::int16, Steinberg::int32, Steinberg::int64, Steinberg::uint32, Steinberg::tresult;
+using Steinberg::kResultOk, Steinberg::kResultTrue;
 
 /// On the host's stack: never counted, never freed.
 template <class Interface>
 struct OnStack : Interface {
-    Steinberg::tresult PLUGIN_API queryInterface(const Steinberg::TUID, void** object) override {
+    tresult PLUGIN_API queryInterface(const Steinberg::TUID, void** object) override {
         *object = nullptr;
         return Steinberg::kNoInterface;
     }
-    Steinberg::uint32 PLUGIN_API addRef() override { return 1; }
-    Steinberg::uint32 PLUGIN_API release() override { return 1; }
+    uint32 PLUGIN_API addRef() override { return 1; }
+    uint32 PLUGIN_API release() override { return 1; }
 };
 
 struct Stream final : OnStack<Steinberg::IBStream> {
     std::string bytes;
     std::size_t at = 0;
-    Steinberg::tresult PLUGIN_API read(void* to, Steinberg::int32 count, Steinberg::int32* done) override {
+    tresult PLUGIN_API read(void* to, int32 count, int32* done) override {
         const auto n = std::min(static_cast<std::size_t>(count), bytes.size() - at);
         std::memcpy(to, bytes.data() + at, n);
         at += n;
-        if (done) *done = static_cast<Steinberg::int32>(n);
+        if (done) *done = static_cast<int32>(n);
         return kResultOk;
     }
-    Steinberg::tresult PLUGIN_API write(void* from, Steinberg::int32 count, Steinberg::int32* done) override {
+    tresult PLUGIN_API write(void* from, int32 count, int32* done) override {
         bytes.append(static_cast<const char*>(from), static_cast<std::size_t>(count));
         if (done) *done = count;
         return kResultOk;
     }
-    Steinberg::tresult PLUGIN_API seek(Steinberg::int64 place, Steinberg::int32 mode,
-                                       Steinberg::int64* result) override {
+    tresult PLUGIN_API seek(int64 place, int32 mode, int64* result) override {
         const auto from = mode == kIBSeekSet   ? 0
-                          : mode == kIBSeekCur ? static_cast<Steinberg::int64>(at)
-                                               : static_cast<Steinberg::int64>(bytes.size());
-        at = static_cast<std::size_t>(
-            std::clamp<Steinberg::int64>(from + place, 0, static_cast<Steinberg::int64>(bytes.size())));
-        if (result) *result = static_cast<Steinberg::int64>(at);
+                          : mode == kIBSeekCur ? static_cast<int64>(at)
+                                               : static_cast<int64>(bytes.size());
+        at = static_cast<std::size_t>(std::clamp<int64>(from + place, 0, static_cast<int64>(bytes.size())));
+        if (result) *result = static_cast<int64>(at);
         return kResultOk;
     }
-    Steinberg::tresult PLUGIN_API tell(Steinberg::int64* place) override {
-        *place = static_cast<Steinberg::int64>(at);
+    tresult PLUGIN_API tell(int64* place) override {
+        *place = static_cast<int64>(at);
         return kResultOk;
     }
 };
 
 struct Notes final : OnStack<vst::IEventList> {
     std::vector<vst::Event> events;
-    Steinberg::int32 PLUGIN_API getEventCount() override {
-        return static_cast<Steinberg::int32>(events.size());
-    }
-    Steinberg::tresult PLUGIN_API getEvent(Steinberg::int32 index, vst::Event& event) override {
+    int32 PLUGIN_API getEventCount() override { return static_cast<int32>(events.size()); }
+    tresult PLUGIN_API getEvent(int32 index, vst::Event& event) override {
         event = events[static_cast<std::size_t>(index)];
         return kResultOk;
     }
-    Steinberg::tresult PLUGIN_API addEvent(vst::Event& event) override {
+    tresult PLUGIN_API addEvent(vst::Event& event) override {
         events.push_back(event);
         return kResultOk;
     }
@@ -89,35 +86,28 @@ struct Notes final : OnStack<vst::IEventList> {
 /// Of one parameter within a block.
 struct Queue final : OnStack<vst::IParamValueQueue> {
     vst::ParamID id = 0;
-    std::vector<std::pair<Steinberg::int32, vst::ParamValue>> points;
+    std::vector<std::pair<int32, vst::ParamValue>> points;
     vst::ParamID PLUGIN_API getParameterId() override { return id; }
-    Steinberg::int32 PLUGIN_API getPointCount() override {
-        return static_cast<Steinberg::int32>(points.size());
-    }
-    Steinberg::tresult PLUGIN_API getPoint(Steinberg::int32 index, Steinberg::int32& frame,
-                                           vst::ParamValue& value) override {
+    int32 PLUGIN_API getPointCount() override { return static_cast<int32>(points.size()); }
+    tresult PLUGIN_API getPoint(int32 index, int32& frame, vst::ParamValue& value) override {
         if (index < 0 || index >= getPointCount()) return Steinberg::kResultFalse;
         std::tie(frame, value) = points[static_cast<std::size_t>(index)];
-        return Steinberg::kResultTrue;
+        return kResultTrue;
     }
-    Steinberg::tresult PLUGIN_API addPoint(Steinberg::int32 frame, vst::ParamValue value,
-                                           Steinberg::int32& index) override {
+    tresult PLUGIN_API addPoint(int32 frame, vst::ParamValue value, int32& index) override {
         points.emplace_back(frame, value);
         index = getPointCount() - 1;
-        return Steinberg::kResultTrue;
+        return kResultTrue;
     }
 };
 
 struct Changes final : OnStack<vst::IParameterChanges> {
     std::vector<Queue> queues;
-    Steinberg::int32 PLUGIN_API getParameterCount() override {
-        return static_cast<Steinberg::int32>(queues.size());
-    }
-    vst::IParamValueQueue* PLUGIN_API getParameterData(Steinberg::int32 index) override {
+    int32 PLUGIN_API getParameterCount() override { return static_cast<int32>(queues.size()); }
+    vst::IParamValueQueue* PLUGIN_API getParameterData(int32 index) override {
         return &queues[static_cast<std::size_t>(index)];
     }
-    vst::IParamValueQueue* PLUGIN_API addParameterData(const vst::ParamID& id,
-                                                       Steinberg::int32& index) override {
+    vst::IParamValueQueue* PLUGIN_API addParameterData(const vst::ParamID& id, int32& index) override {
         index = getParameterCount();
         queues.emplace_back().id = id;
         return &queues.back();
@@ -131,7 +121,7 @@ public:
         if (!module_) return;
         reinterpret_cast<bool (*)(void*)>(dlsym(module_, "ModuleEntry"))(module_);
         factory_ = reinterpret_cast<Steinberg::IPluginFactory* (*)()>(dlsym(module_, "GetPluginFactory"))();
-        for (Steinberg::int32 i = 0; i < factory_->countClasses(); ++i) {
+        for (int32 i = 0; i < factory_->countClasses(); ++i) {
             Steinberg::PClassInfo info;
             factory_->getClassInfo(i, &info);
             if (std::strcmp(info.category, kVstAudioEffectClass) == 0)
@@ -164,9 +154,8 @@ public:
     }
     bool arrange(std::vector<vst::SpeakerArrangement> outputs,
                  std::vector<vst::SpeakerArrangement> inputs = {}) {
-        return processor->setBusArrangements(inputs.data(), static_cast<Steinberg::int32>(inputs.size()),
-                                             outputs.data(), static_cast<Steinberg::int32>(outputs.size())) ==
-               Steinberg::kResultTrue;
+        return processor->setBusArrangements(inputs.data(), static_cast<int32>(inputs.size()), outputs.data(),
+                                             static_cast<int32>(outputs.size())) == kResultTrue;
     }
     /// A side chain of one channel or two, before start; what comes in by it is `music`.
     bool hear(std::size_t channels, int block) {
@@ -207,7 +196,7 @@ public:
         vst::Event event{};
         event.type = vst::Event::kNoteOnEvent;
         event.sampleOffset = frame;
-        event.noteOn.pitch = static_cast<Steinberg::int16>(pitch);
+        event.noteOn.pitch = static_cast<int16>(pitch);
         event.noteOn.velocity = 1.0f;
         event.noteOn.noteId = -1;
         notes_.events.push_back(event);
@@ -216,7 +205,7 @@ public:
     void letGo(int channel = 0) {
         const auto pitch = event().noteOn.pitch;
         event().type = vst::Event::kNoteOffEvent;
-        event().noteOff = {static_cast<Steinberg::int16>(channel), pitch, 0.0f, -1, 0.0f};
+        event().noteOff = {static_cast<int16>(channel), pitch, 0.0f, -1, 0.0f};
     }
     vst::Event& event() { return notes_.events.back(); } ///< what note() made, to become another
     bool process() { return process(block_); }
@@ -228,20 +217,20 @@ public:
             for (auto& channel : bus) pointers.back().push_back(channel.data());
         }
         for (std::size_t b = 0; b < channels.size(); ++b) {
-            outputs[b].numChannels = static_cast<Steinberg::int32>(channels[b].size());
+            outputs[b].numChannels = static_cast<int32>(channels[b].size());
             outputs[b].channelBuffers32 = pointers[b].data();
         }
         std::vector<float*> heard;
         for (auto& channel : music) heard.push_back(channel.data());
         vst::AudioBusBuffers input;
-        input.numChannels = static_cast<Steinberg::int32>(heard.size());
+        input.numChannels = static_cast<int32>(heard.size());
         input.channelBuffers32 = heard.data();
         vst::ProcessData data;
         data.processMode = mode;
         data.numSamples = frames;
         data.numInputs = heard.empty() ? 0 : 1;
         data.inputs = &input;
-        data.numOutputs = static_cast<Steinberg::int32>(outputs.size());
+        data.numOutputs = static_cast<int32>(outputs.size());
         data.outputs = outputs.data();
         data.inputEvents = &notes_;
         data.inputParameterChanges = &changes;
@@ -257,7 +246,7 @@ public:
         const auto id = ids_[parameter];
         const auto found = std::find_if(changes.queues.begin(), changes.queues.end(),
                                         [id](const Queue& queue) { return queue.id == id; });
-        Steinberg::int32 index = 0;
+        int32 index = 0;
         auto* const queue = found == changes.queues.end() ? changes.addParameterData(id, index) : &*found;
         queue->addPoint(frame, value, index);
     }
@@ -271,8 +260,8 @@ public:
     std::vector<vst::NoteExpressionTypeID> expressions;
     vst::IComponent* component = nullptr;
     vst::IAudioProcessor* processor = nullptr;
-    Steinberg::int32 mode = vst::kOffline;
-    Steinberg::tresult (*call)(vst::IAudioProcessor&, vst::ProcessData&) =
+    int32 mode = vst::kOffline;
+    tresult (*call)(vst::IAudioProcessor&, vst::ProcessData&) =
         [](vst::IAudioProcessor& to, vst::ProcessData& data) { return to.process(data); };
     std::vector<std::vector<float>> music; ///< [channel][frame] of the next block; none: the side chain is
                                            ///< off
@@ -290,7 +279,7 @@ private:
         controller->queryInterface(vst::IConnectionPoint_iid, reinterpret_cast<void**>(&other));
         one->connect(other);
         other->connect(one);
-        for (Steinberg::int32 i = 0; i < controller->getParameterCount(); ++i) {
+        for (int32 i = 0; i < controller->getParameterCount(); ++i) {
             vst::ParameterInfo info;
             controller->getParameterInfo(i, info);
             ids_.push_back(info.id);
@@ -299,17 +288,17 @@ private:
         }
         vst::IMidiMapping* mapping = nullptr;
         controller->queryInterface(vst::IMidiMapping_iid, reinterpret_cast<void**>(&mapping));
-        for (Steinberg::int16 c = 0; mapping && c < 16; ++c)
-            for (Steinberg::int16 number = 0; number < vst::kCountCtrlNumber; ++number) {
+        for (int16 c = 0; mapping && c < 16; ++c)
+            for (int16 number = 0; number < vst::kCountCtrlNumber; ++number) {
                 auto& id = standIns[static_cast<std::size_t>(c)].emplace_back();
-                if (mapping->getMidiControllerAssignment(0, c, number, id) != Steinberg::kResultTrue ||
+                if (mapping->getMidiControllerAssignment(0, c, number, id) != kResultTrue ||
                     std::find(ids_.begin(), ids_.end(), id) == ids_.end())
                     id = 0;
             }
         if (mapping) mapping->release();
         vst::INoteExpressionController* expression = nullptr;
         controller->queryInterface(vst::INoteExpressionController_iid, reinterpret_cast<void**>(&expression));
-        for (Steinberg::int32 i = 0; expression && i < expression->getNoteExpressionCount(0, 0); ++i) {
+        for (int32 i = 0; expression && i < expression->getNoteExpressionCount(0, 0); ++i) {
             vst::NoteExpressionTypeInfo info{};
             expression->getNoteExpressionInfo(0, 0, i, info);
             expressions.push_back(info.typeId);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// VST3 in a host that does only what the standard makes it do: every arrangement, none at all, states,
-// suspensions.
+// VST3 in a host that does only what the standard demands: every arrangement, none, states, suspensions.
 #include "RawVst3.h"
 #include "Plugin/PluginTesting.h"
 #include "Support/BeatSong.h"
@@ -120,18 +119,17 @@ TEST(RawVst3, StateComesBackAndSuspensionRepeatsTheTake) {
     EXPECT_TRUE(host.setState(pluginStateJson(state)));
     const std::string chunk = host.state();
     EXPECT_NE(chunk, fresh);
-    std::vector<float> takes[2];
+    std::array<Samples, 2> takes;
     for (auto& take : takes) { // suspended and resumed in between
         host.start(256);
         for (int b = 0; b < 400; ++b) {
             host.process();
-            for (const auto& channel : host.channels[0])
-                take.insert(take.end(), channel.begin(), channel.end());
+            take.insert(take.end(), host.channels[0].begin(), host.channels[0].end());
         }
         host.stop();
     }
     EXPECT_TRUE(takes[0] == takes[1]);
-    EXPECT_GT(*std::max_element(takes[0].begin(), takes[0].end()), 0.001f);
+    EXPECT_GT(peakOf(takes[0]), 0.001f);
     EXPECT_EQ(host.state(), chunk);
     EXPECT_EQ(host.processor->getLatencySamples(), 256u + 480 + 960 + 47);
     EXPECT_EQ(host.processor->getTailSamples(), vst::kInfiniteTail);
@@ -161,16 +159,11 @@ TEST(RawVst3, WhatComesInByOneChannelOrTwoStrikesAndIsFeltAsInTheProcessor) {
     for (const std::size_t channels : {1u, 2u}) {
         ModuleWith host{state};
         ASSERT_TRUE(host.hear(channels, 512));
-        TestHost processor;
-        auto layout = processor.plugin->getBusesLayout();
-        layout.inputBuses.getReference(0) =
-            channels == 1 ? juce::AudioChannelSet::mono() : juce::AudioChannelSet::stereo();
-        ASSERT_TRUE(processor.plugin->setBusesLayout(layout));
-        ASSERT_TRUE(processor.plugin->apply(state));
-        processor.plugin->parameter(Parameter::beats).setValue(0.5f);
-        processor.plugin->parameter(Parameter::music)
-            .setValue(static_cast<float>(normalised(rowOf(Parameter::music), -6.0)));
-        processor.plugin->parameter(Parameter::musicSides).setValue(1.0f);
+        TestHost processor{state};
+        ASSERT_TRUE(setSideChain(*processor.plugin, static_cast<int>(channels)));
+        processor.set(Parameter::beats, 50.0);
+        processor.set(Parameter::music, -6.0);
+        processor.set(Parameter::musicSides, 1.0);
         processor.prepare(48000, 512);
         host.start(512);
         float peak = 0.0f;
@@ -255,6 +248,9 @@ TEST(RawVst3, StandInsOfControllersAreFewAndEachControllerOfEachChannelHasOne) {
     ASSERT_TRUE(host.isLoaded());
     const auto others = static_cast<std::ptrdiff_t>(parameterCount) + 1; // the program
     EXPECT_LE(std::ssize(host.names), others + vst::kCountCtrlNumber + 15 * 4);
+    std::set<std::u16string> titles;
+    for (std::size_t p = 0; p < parameterCount; ++p)
+        EXPECT_TRUE(titles.insert(host.shortNames[p]).second) << "a short title is another's: " << p;
     for (const auto& channel : host.standIns) {
         ASSERT_EQ(std::ssize(channel), static_cast<std::ptrdiff_t>(vst::kCountCtrlNumber));
         EXPECT_EQ(std::ranges::count(channel, vst::ParamID{0}), 0);
@@ -263,14 +259,6 @@ TEST(RawVst3, StandInsOfControllersAreFewAndEachControllerOfEachChannelHasOne) {
                            static_cast<std::size_t>(vst::kPitchBend), std::size_t{74}, std::size_t{64}})
         EXPECT_NE(host.standIns[0][own], host.standIns[9][own]) << own;
     EXPECT_EQ(host.standIns[0][1], host.standIns[9][1]) << "the modulation wheel of any channel is the same";
-}
-
-TEST(RawVst3, ShortTitlesDiffer) {
-    RawVst3 host{oneBus, "PhysVib"};
-    ASSERT_TRUE(host.isLoaded());
-    std::set<std::u16string> titles;
-    for (std::size_t p = 0; p < parameterCount; ++p)
-        EXPECT_TRUE(titles.insert(host.shortNames[p]).second) << p;
 }
 
 // The last two are worlds with a mix, of which "live" is live.
@@ -462,7 +450,7 @@ std::vector<float> peaksAfter(RawVst3& host, Say say) {
     for (int b = 0; b < 40; ++b) {
         EXPECT_TRUE(host.process());
         for (std::size_t c = 0; c < peaks.size(); ++c)
-            for (const float x : host.channels.front()[c]) peaks[c] = std::max(peaks[c], std::abs(x));
+            peaks[c] = std::max(peaks[c], peakOf(Samples{host.channels.front()[c]}));
     }
     return peaks;
 }

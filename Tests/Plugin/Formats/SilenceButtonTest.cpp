@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// SILENCE clicked in the window that a module opens in its host: it stays pressed, and nothing moves any
-// more. Needs a display.
+// SILENCE clicked in a module's window in its host: it stays pressed, and nothing moves. Needs a display.
 #include "Plugin/Formats/Player.h"
 #include "Plugin/PluginTesting.h"
 #include "PluginEditor.h"
@@ -23,8 +22,7 @@ juce::Point<int> placeOfSilence(int width, int height) {
     return button ? editor->getLocalPoint(button, button->getLocalBounds().getCentre()) : juce::Point<int>{};
 }
 
-/// The innermost window: each host and each format nests it in others of its own, below one of a pixel for
-/// the keyboard.
+/// The innermost window: hosts and formats nest it in others, below one of a pixel for the keyboard.
 Window innermost(Display* display, Window window) {
     Window root = 0, parent = 0, *children = nullptr;
     unsigned int count = 0;
@@ -34,8 +32,7 @@ Window innermost(Display* display, Window window) {
     return innermost(display, child);
 }
 
-// The pointer goes there, and nothing lies between press and release: a button that is not below the pointer
-// is let go.
+// The pointer goes there, and nothing lies between press and release: a button elsewhere is let go.
 void click(Display* display, Window window, juce::Point<int> at) {
     XWarpPointer(display, 0, window, 0, 0, 0, 0, at.x, at.y);
     XSync(display, 0);

@@ -60,8 +60,7 @@ std::vector<TimedMessage> messages() {
 }
 
 // On a MIDI track hosts keep automation by beats, so at even ticks; and away from the beginnings of blocks,
-// where it depends on rounding to which of them a point belongs. The first of each stands at 0: before it
-// hosts take its value.
+// whose points depend on rounding. The first of each stands at 0: before it hosts use its value.
 std::vector<Point> automation() {
     std::vector<Point> all;
     const auto addEvery = [&all](int step, Parameter which, auto value) {
