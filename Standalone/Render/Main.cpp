@@ -184,7 +184,7 @@ void tellOutside(const Source& source, const PhantomPanner& panner, std::int64_t
 PictureInput pictureWords(const Options& o, const Source& source, const LayoutDescription& layout,
                           const RendererSettings& settings) {
     PictureInput picture;
-    picture.title = source.scene ? source.scene->name : std::filesystem::path{o.input}.filename().string();
+    picture.title = source.scene ? source.scene->name : leafOf(o.input);
     picture.subtitle = source.scene ? source.scene->description : "an event list";
     picture.fieldWidthMetres = settings.panner.fieldWidthMetres();
     picture.fieldHeightMetres = settings.panner.fieldHeightMetres();
