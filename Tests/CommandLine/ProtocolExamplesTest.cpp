@@ -25,15 +25,10 @@ protected:
 TEST_F(ProtocolExamples, AreCheckedRunAndReported) {
     ASSERT_GE(names.size(), 10u);
     for (const std::string& name : names) {
-        const auto checked = call("study check " + name + ".json");
-        EXPECT_EQ(checked.exitCode, 0) << name << ": " << checked.out << checked.err;
-        EXPECT_FALSE(holds(checked.out, "error: ")) << name;
-        const auto ran =
-            call("study run " + name + ".json --observer simulated --participants 3 --out " + name);
-        ASSERT_EQ(ran.exitCode, 0) << name << ": " << ran.err;
-        const auto reported =
-            call("report " + name + "/*.csv --protocol " + name + ".json --out " + name + "-report");
-        ASSERT_EQ(reported.exitCode, 0) << name << ": " << reported.err;
+        const auto checked = runs("study check " + name + ".json");
+        EXPECT_FALSE(holds(checked.out, "error: ")) << name << ": " << checked.out;
+        runs("study run " + name + ".json --observer simulated --participants 3 --out " + name);
+        runs("report " + name + "/*.csv --protocol " + name + ".json --out " + name + "-report");
         const std::string page = read(name + "-report/index.html");
         for (const char* untrue : {"no analysis is known", "<td>not finished</td>"})
             EXPECT_FALSE(holds(page, untrue)) << name;
@@ -52,6 +47,7 @@ TEST_F(ProtocolExamples, TheReportHasTheFieldsOfItsProtocol) {
 
 TEST_F(ProtocolExamples, TimesOfAPersonAreTold) {
     runs("study run strength-numbers.json --observer simulated --participant P01 --out t");
+    const std::string times = "t/strength-numbers-P01.times.txt";
     std::string rows = read("t/strength-numbers-P01.csv");
     for (std::size_t at = 0; (at = rows.find("simulated", at)) != std::string::npos;)
         rows.replace(at, 9, "person");
@@ -60,7 +56,7 @@ TEST_F(ProtocolExamples, TimesOfAPersonAreTold) {
     const std::string all = "2026-11-24T14:00:00Z,start,0,ko,1 2,5 6\n2026-11-24T14:10:00Z,break,9,,,\n"
                             "2026-11-24T14:13:00Z,go-on,9,,,\n2026-11-24T15:00:00Z,resume,9,ko,1 2,5 6\n"
                             "2026-11-24T15:20:00Z,end,18,,,\n";
-    write("t/strength-numbers-P01.times.txt", head + all);
+    write(times, head + all);
     const std::string report = "report t/*.csv --protocol strength-numbers.json --out ";
     runs(report + "r");
     EXPECT_TRUE(holds(read("r/index.html"),
@@ -78,16 +74,15 @@ TEST_F(ProtocolExamples, TimesOfAPersonAreTold) {
     EXPECT_TRUE(holds(read("r0/index.html"),
                       "<td class=\"number\">1</td><td class=\"number\">4</td><td class=\"number\">1</td>"));
     // rows of which it must not be true
-    write("t/strength-numbers-P01.times.txt", head + "2026-11-24T14:00:00Z,start,0,,1 2,\n");
+    write(times, head + "2026-11-24T14:00:00Z,start,0,,1 2,\n");
     runs(report + "r2");
     const std::string page = read("r2/index.html");
     EXPECT_TRUE(holds(page, "<td>2026-11-24T14:00:00Z</td><td>no</td><td class=\"number\">1</td>"));
-    write("t/strength-numbers-P01.times.txt", head + "yesterday,start,0,,1 2,\n");
+    write(times, head + "yesterday,start,0,,1 2,\n");
     const auto wrong = call(report + "r3");
     EXPECT_EQ(wrong.exitCode, 1);
-    EXPECT_TRUE(
-        holds(wrong.err, "t/strength-numbers-P01.times.txt:2: column time_utc: expected a time like"));
-    std::filesystem::remove(folder_ / "t/strength-numbers-P01.times.txt");
+    EXPECT_TRUE(holds(wrong.err, times + ":2: column time_utc: expected a time like"));
+    std::filesystem::remove(folder_ / times);
     runs(report + "r4");
     EXPECT_TRUE(holds(read("r4/index.html"), "without a file of times"));
 }
