@@ -42,53 +42,6 @@ CLI::Validator inRange(T low, T high, const std::string& unit = "") {
             range};
 }
 
-#if PHYSVIB_PICTURES
-/// Draws the picture of a render from the samples, which it receives as they are rendered. Message thread.
-class RenderedPicture {
-public:
-    /// Checks that the file can be written; see error(). `events` outlive this object.
-    RenderedPicture(const std::string& path, std::span<const CollisionEvent> events, int channels,
-                    int sampleRateHz, std::int64_t frames)
-        : file_{path}
-        , events_{events}
-        , sampleRateHz_{sampleRateHz}
-        , whole_{channels, 0, frames}
-        , zoom_{zoomOf(events, channels, sampleRateHz)} {}
-
-    /// Empty, or one line with file and reason.
-    const std::string& error() const noexcept { return file_.error(); }
-
-    /// Appends frames of each channel.
-    void take(const float* const* channels, int frames) {
-        whole_.add(channels, frames);
-        zoom_.add(channels, frames);
-    }
-
-    /// Draws the picture with the texts of `words`; adds events and samples. Returns error().
-    const std::string& draw(PictureInput words) {
-        words.events = events_;
-        words.waveform = &whole_;
-        words.zoom = &zoom_;
-        words.sampleRateHz = sampleRateHz_;
-        words.durationSeconds = static_cast<double>(whole_.frameCount()) / sampleRateHz_;
-        return file_.write(picturePng(words));
-    }
-
-    /// Moves the file to its final name. Returns error().
-    const std::string& commit() { return file_.commit(); }
-
-private:
-    static WaveformEnvelope zoomOf(std::span<const CollisionEvent> events, int channels, int sampleRateHz) {
-        const FrameWindow window = zoomWindow(events, sampleRateHz);
-        return {channels, window.firstFrame, window.frameCount};
-    }
-
-    AtomicFile file_;
-    std::span<const CollisionEvent> events_;
-    int sampleRateHz_;
-    WaveformEnvelope whole_, zoom_;
-};
-#endif
 } // namespace physvib
 using namespace physvib;
 
@@ -180,24 +133,47 @@ void tellOutside(const Source& source, const PhantomPanner& panner, std::int64_t
 }
 
 #if PHYSVIB_PICTURES
-/// Texts and settings of the picture, without events and samples.
-PictureInput pictureWords(const Options& o, const Source& source, const LayoutDescription& layout,
-                          const RendererSettings& settings) {
-    PictureInput picture;
-    picture.title = source.scene ? source.scene->name : std::filesystem::path{o.input}.filename().string();
-    picture.subtitle = source.scene ? source.scene->description : "an event list";
-    picture.fieldWidthMetres = settings.panner.fieldWidthMetres();
-    picture.fieldHeightMetres = settings.panner.fieldHeightMetres();
-    if (source.scene) {
-        picture.scene = &*source.scene;
-        picture.poses = posesAtStrongest(*source.scene, o.run, source.events);
+/// The picture of a render, from its samples as they are rendered. M only.
+struct RenderedPicture {
+    RenderedPicture(const Options& o, const Source& source, int channels)
+        : file{o.picturePath}
+        , window{zoomWindow(source.events, o.sampleRateHz)}
+        , whole{channels, 0, o.frames()}
+        , zoom{channels, window.firstFrame, window.frameCount} {}
+
+    void take(const float* const* channels, int frames) {
+        whole.add(channels, frames);
+        zoom.add(channels, frames);
     }
-    picture.layout = layout.geometry;
-    for (const auto& enchanter : layout.enchanters) picture.labels.push_back(enchanter.label);
-    picture.law = std::string{nameOf(settings.panner.law())} + " law";
-    picture.provenance = provenanceLine(source.provenance);
-    return picture;
-}
+
+    /// Empty, or one line with file and reason.
+    std::string draw(const Options& o, const Source& source, const LayoutDescription& layout,
+                     const PhantomPanner& panner) {
+        PictureInput picture;
+        picture.title = source.scene ? source.scene->name : leafOf(o.input);
+        picture.subtitle = source.scene ? source.scene->description : "an event list";
+        picture.fieldWidthMetres = panner.fieldWidthMetres();
+        picture.fieldHeightMetres = panner.fieldHeightMetres();
+        if (source.scene) {
+            picture.scene = &*source.scene;
+            picture.poses = posesAtStrongest(*source.scene, o.run, source.events);
+        }
+        picture.layout = layout.geometry;
+        for (const auto& enchanter : layout.enchanters) picture.labels.push_back(enchanter.label);
+        picture.law = std::string{nameOf(panner.law())} + " law";
+        picture.provenance = provenanceLine(source.provenance);
+        picture.events = source.events;
+        picture.waveform = &whole;
+        picture.zoom = &zoom;
+        picture.sampleRateHz = o.sampleRateHz;
+        picture.durationSeconds = static_cast<double>(o.frames()) / o.sampleRateHz;
+        return file.write(picturePng(picture));
+    }
+
+    AtomicFile file;
+    FrameWindow window;
+    WaveformEnvelope whole, zoom;
+};
 #endif
 
 /// Writes the WAV file and the picture, as requested.
@@ -211,11 +187,8 @@ std::string writeSound(const Options& o, const Source& source, const LayoutDescr
         return wav->error();
 #if PHYSVIB_PICTURES
     std::optional<RenderedPicture> picture;
-    if (!o.picturePath.empty() &&
-        !picture.emplace(o.picturePath, source.events, settings.outputs(), o.sampleRateHz, o.frames())
-             .error()
-             .empty())
-        return picture->error();
+    if (!o.picturePath.empty() && !picture.emplace(o, source, settings.outputs()).file.error().empty())
+        return picture->file.error();
 #endif
     const auto status =
         renderOffline(source.events, {settings, o.frames()}, [&](const float* const* channels, int frames) {
@@ -230,11 +203,11 @@ std::string writeSound(const Options& o, const Source& source, const LayoutDescr
     tellOutside(source, settings.panner, std::llround(o.seconds * 1e9));
     std::string error;
 #if PHYSVIB_PICTURES
-    if (picture) error = picture->draw(pictureWords(o, source, layout, settings));
+    if (picture) error = picture->draw(o, source, layout, settings.panner);
 #endif
     if (error.empty() && wav) error = wav->finish();
 #if PHYSVIB_PICTURES
-    if (error.empty() && picture) error = picture->commit();
+    if (error.empty() && picture) error = picture->file.commit();
 #endif
     return error;
 }

@@ -58,10 +58,10 @@ protected:
     void TearDown() override { std::filesystem::remove_all(folder_); }
 
     /// `before`: words of a shell that come first.
-    Outcome call(const std::string& arguments, const std::string& before = {}) const {
-        const std::string command = before + "cd '" + folder_.string() +
-                                    "' && env -u DISPLAY '" PHYSVIB_PROGRAM "' " + arguments +
-                                    " >.out 2>.err";
+    Outcome call(const std::string& arguments, const std::string& before = {},
+                 const char* program = PHYSVIB_PROGRAM) const {
+        const std::string command = before + "cd '" + folder_.string() + "' && env -u DISPLAY '" + program +
+                                    "' " + arguments + " >.out 2>.err";
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
     }

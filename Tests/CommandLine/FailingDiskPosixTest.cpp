@@ -14,12 +14,9 @@ protected:
     /// Of `physvib`, or, where the words begin with "physvib-render ", of the small program.
     Outcome call(const std::string& arguments, const std::string& before = {}) const {
         constexpr std::string_view small = "physvib-render ";
-        if (!arguments.starts_with(small)) return CommandLine::call(arguments, before);
-        const std::string command = before + "cd '" + folder_.string() +
-                                    "' && '" PHYSVIB_RENDER_PROGRAM "' " + arguments.substr(small.size()) +
-                                    " >.out 2>.err";
-        const int status = std::system(command.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
+        return arguments.starts_with(small)
+                   ? CommandLine::call(arguments.substr(small.size()), before, PHYSVIB_RENDER_PROGRAM)
+                   : CommandLine::call(arguments, before);
     }
 
     /// The call with its nth `system` call failing; false in `hasFailed` if it has not so many.

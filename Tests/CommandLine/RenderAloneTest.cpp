@@ -12,10 +12,7 @@ class RenderAlone : public test::CommandLine {
 protected:
     /// What `physvib-render` says; 0 if it is content.
     int alone(const std::string& arguments) const {
-        const int status = std::system(
-            ("cd '" + folder_.string() + "' && '" PHYSVIB_RENDER_PROGRAM "' " + arguments + " >.out 2>.err")
-                .c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+        return call(arguments, {}, PHYSVIB_RENDER_PROGRAM).exitCode;
     }
     /// What stands behind the head of a WAV file.
     std::string samplesOf(const std::string& name) const {

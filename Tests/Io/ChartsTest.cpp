@@ -89,10 +89,10 @@ TEST(Charts, SeriesAreToldApartWithoutColours) {
     std::set<std::string> hatches, markers;
     std::set<std::string_view> dashes, colours;
     for (std::size_t s = 0; s < chartStyles; ++s) {
-        Svg bar{"n", 10, 10}, marker{"n", 10, 10};
+        Svg bar{{"n", ""}, 10, 10}, marker{{"n", ""}, 10, 10};
         bar.bar({1, 1}, 5, 5, s);
         marker.marker({5, 5}, s);
-        const std::string drawn = bar.finish("", false), marked = marker.finish("", false);
+        const std::string drawn = bar.finish(), marked = marker.finish();
         const std::size_t at = drawn.find("<path d=");
         hatches.insert(at == std::string::npos ? "plain" : drawn.substr(at, drawn.find("stroke", at) - at));
         markers.insert(marked.substr(marked.find("<rect"),

@@ -128,13 +128,10 @@ private:
     static void expect(const Json& json, std::type_identity<bool>, const Bounds&) {
         EXPECT_EQ(json["type"], "boolean") << json;
     }
-    static void expect(const Json& json, std::type_identity<double>, const Bounds& bounds) {
-        EXPECT_EQ(json["type"], "number") << json;
-        EXPECT_EQ(json["minimum"].get<double>(), bounds.least) << json;
-        EXPECT_EQ(json["maximum"].get<double>(), bounds.most) << json;
-    }
-    static void expect(const Json& json, std::type_identity<int>, const Bounds& bounds) {
-        EXPECT_EQ(json["type"], "integer") << json;
+    template <class F>
+    requires std::is_arithmetic_v<F>
+    static void expect(const Json& json, std::type_identity<F>, const Bounds& bounds) {
+        EXPECT_EQ(json["type"], std::is_integral_v<F> ? "integer" : "number") << json;
         EXPECT_EQ(json["minimum"].get<double>(), bounds.least) << json;
         EXPECT_EQ(json["maximum"].get<double>(), bounds.most) << json;
     }

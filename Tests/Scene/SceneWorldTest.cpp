@@ -10,12 +10,14 @@
 namespace physvib {
 namespace {
 
-/// Weightless and empty, of one material of 100 kg/m^2 without friction or bounce.
-Scene emptyScene() {
+/// Of one material of 100 kg/m^2 without friction or bounce.
+Scene sceneOf(double gravity, std::vector<BodyDescription> bodies = {}) {
     Scene scene;
     scene.name = "test";
     scene.fieldWidthMetres = scene.fieldHeightMetres = 10.0;
     scene.materials = {{"plain", 100.0, 0.0, 0.0, 200.0, 50.0}, {"heavy", 400.0, 0.3, 0.9, 80.0, 20.0}};
+    scene.bodies = std::move(bodies);
+    scene.gravityMetresPerSecond2 = {0.0, -gravity};
     return scene;
 }
 
@@ -62,10 +64,8 @@ double mass(const World& world, std::size_t fixture) { return world.fixture(fixt
 
 /// Height at which a small ball comes to rest on body 0, dropped at x.
 double restingHeight(const Shape& ground, double x) {
-    Scene scene = emptyScene();
-    scene.gravityMetresPerSecond2 = {0.0, -10.0};
-    scene.bodies = {body("ground", ground, {0.0, 0.0}, BodyType::staticBody),
-                    body("ball", CircleShape{0.1}, {x, 2.0})};
+    Scene scene = sceneOf(10.0, {body("ground", ground, {0.0, 0.0}, BodyType::staticBody),
+                                 body("ball", CircleShape{0.1}, {x, 2.0})});
     World world(scene);
     world.run(3.0);
     return world.pose(1).yMetres - 0.1;
@@ -90,8 +90,7 @@ TEST(SceneWorld, ChainsAreHitFromTheRightOfTheirDirection) {
 }
 
 TEST(SceneWorld, FixturesSitAtTheirOffsetAndAngle) {
-    Scene scene = emptyScene();
-    scene.bodies = {body("turned", BoxShape{2.0, 0.2}, {5.0, 5.0}, BodyType::staticBody)};
+    Scene scene = sceneOf(0.0, {body("turned", BoxShape{2.0, 0.2}, {5.0, 5.0}, BodyType::staticBody)});
     scene.bodies[0].fixtures[0].offsetMetres = {1.0, 2.0};
     scene.bodies[0].fixtures[0].angleRadians = 1.5707963267948966;
     const World world(scene);
@@ -100,8 +99,7 @@ TEST(SceneWorld, FixturesSitAtTheirOffsetAndAngle) {
 }
 
 TEST(SceneWorld, SeveralFixturesShareAMassAndACentre) {
-    Scene scene = emptyScene();
-    scene.bodies = {body("dumb-bell", BoxShape{1.0, 1.0}, {5.0, 5.0})};
+    Scene scene = sceneOf(0.0, {body("dumb-bell", BoxShape{1.0, 1.0}, {5.0, 5.0})});
     scene.bodies[0].fixtures.push_back({BoxShape{1.0, 1.0}, {4.0, 0.0}, 0.0, 1}); // four times as heavy
     const World world(scene);
     const b2Body& built = *world.fixture(0).GetBody();
@@ -113,8 +111,7 @@ TEST(SceneWorld, SeveralFixturesShareAMassAndACentre) {
 }
 
 TEST(SceneWorld, APrintedMassReplacesTheComputedOne) {
-    Scene scene = emptyScene();
-    scene.bodies = {body("ball", CircleShape{0.5}, {5.0, 5.0})};
+    Scene scene = sceneOf(0.0, {body("ball", CircleShape{0.5}, {5.0, 5.0})});
     scene.bodies[0].massKg = 8.48;
     const World world(scene);
     EXPECT_FLOAT_EQ(world.fixture(0).GetBody()->GetMass(), 8.48F);
@@ -123,10 +120,9 @@ TEST(SceneWorld, APrintedMassReplacesTheComputedOne) {
 }
 
 TEST(SceneWorld, BodiesStartAsTheyAreDescribed) {
-    Scene scene = emptyScene();
-    scene.bodies = {body("flying", CircleShape{0.5}, {1.0, 5.0}),
-                    body("slowing", CircleShape{0.5}, {1.0, 8.0}),
-                    body("carrying", BoxShape{1.0, 0.2}, {1.0, 1.0}, BodyType::kinematicBody)};
+    Scene scene = sceneOf(0.0, {body("flying", CircleShape{0.5}, {1.0, 5.0}),
+                                body("slowing", CircleShape{0.5}, {1.0, 8.0}),
+                                body("carrying", BoxShape{1.0, 0.2}, {1.0, 1.0}, BodyType::kinematicBody)});
     scene.bodies[0].velocityMetresPerSecond = scene.bodies[1].velocityMetresPerSecond =
         scene.bodies[2].velocityMetresPerSecond = {2.0, 0.5};
     scene.bodies[0].spinRadiansPerSecond = 3.0;
@@ -140,9 +136,8 @@ TEST(SceneWorld, BodiesStartAsTheyAreDescribed) {
 }
 
 TEST(SceneWorld, MotorTurnsAHingeUpToItsLimit) {
-    Scene scene = emptyScene();
-    scene.bodies = {body("base", BoxShape{1.0, 1.0}, {5.0, 5.0}, BodyType::staticBody),
-                    body("arm", BoxShape{2.0, 0.2}, {6.0, 5.0})};
+    Scene scene = sceneOf(0.0, {body("base", BoxShape{1.0, 1.0}, {5.0, 5.0}, BodyType::staticBody),
+                                body("arm", BoxShape{2.0, 0.2}, {6.0, 5.0})});
     scene.joints = {{"hinge", "base", "arm", RevoluteJoint{{5.0, 5.0}, Interval{-0.5, 1.0}, 2.0, 1.0e5}}};
     scene.script = {at(1.0, MotorAction{"hinge", -2.0, {}})};
     World world(scene);
@@ -156,8 +151,7 @@ TEST(SceneWorld, MotorTurnsAHingeUpToItsLimit) {
 }
 
 TEST(SceneWorld, WheelCarriesItsCarOnASpringAndDrivesIt) {
-    Scene scene = emptyScene();
-    scene.gravityMetresPerSecond2 = {0.0, -10.0};
+    Scene scene = sceneOf(10.0);
     scene.materials[0].friction = 0.9;
     scene.bodies = {body("road", BoxShape{50.0, 1.0}, {0.0, -0.5}, BodyType::staticBody),
                     body("car", BoxShape{2.0, 0.4}, {0.0, 0.8}), body("rear", CircleShape{0.3}, {-0.8, 0.3}),
@@ -179,10 +173,8 @@ TEST(SceneWorld, WheelCarriesItsCarOnASpringAndDrivesIt) {
 }
 
 TEST(SceneWorld, WheelHangsAtTheEndOfItsTravel) {
-    Scene scene = emptyScene();
-    scene.gravityMetresPerSecond2 = {0.0, -10.0};
-    scene.bodies = {body("hook", BoxShape{0.2, 0.2}, {5.0, 8.0}, BodyType::staticBody),
-                    body("wheel", CircleShape{0.2}, {5.0, 7.0})};
+    Scene scene = sceneOf(10.0, {body("hook", BoxShape{0.2, 0.2}, {5.0, 8.0}, BodyType::staticBody),
+                                 body("wheel", CircleShape{0.2}, {5.0, 7.0})});
     scene.joints = {
         {"axle", "hook", "wheel", WheelJoint{{5.0, 7.0}, {0.0, 0.5}, 0.0, 0.0, Interval{-0.3, 0.2}}}};
     World world(scene);
@@ -192,10 +184,9 @@ TEST(SceneWorld, WheelHangsAtTheEndOfItsTravel) {
 }
 
 TEST(SceneWorld, RodKeepsItsLengthAndSpringSwings) {
-    Scene scene = emptyScene();
-    scene.gravityMetresPerSecond2 = {0.0, -10.0};
-    scene.bodies = {body("hook", BoxShape{0.2, 0.2}, {5.0, 8.0}, BodyType::staticBody),
-                    body("bob", CircleShape{0.2}, {6.0, 8.0}), body("weight", CircleShape{0.2}, {5.0, 6.0})};
+    Scene scene = sceneOf(10.0, {body("hook", BoxShape{0.2, 0.2}, {5.0, 8.0}, BodyType::staticBody),
+                                 body("bob", CircleShape{0.2}, {6.0, 8.0}),
+                                 body("weight", CircleShape{0.2}, {5.0, 6.0})});
     scene.joints = {{"rod", "hook", "bob", DistanceJoint{{5.0, 8.0}, {6.0, 8.0}}},
                     {"spring", "hook", "weight", DistanceJoint{{5.0, 8.0}, {5.0, 6.0}, 1.0, 0.0}, true}};
     World world(scene);
@@ -209,8 +200,8 @@ TEST(SceneWorld, RodKeepsItsLengthAndSpringSwings) {
 }
 
 TEST(SceneWorld, WeldGluesTwoBodies) {
-    Scene scene = emptyScene();
-    scene.bodies = {body("a", BoxShape{1.0, 1.0}, {2.0, 5.0}), body("b", BoxShape{1.0, 1.0}, {3.2, 5.0})};
+    Scene scene =
+        sceneOf(0.0, {body("a", BoxShape{1.0, 1.0}, {2.0, 5.0}), body("b", BoxShape{1.0, 1.0}, {3.2, 5.0})});
     scene.joints = {{"seam", "a", "b", WeldJoint{{2.6, 5.0}}}};
     scene.script = {at(0.0, ImpulseAction{"a", {100.0, 0.0}, {}})};
     World world(scene);
@@ -220,8 +211,7 @@ TEST(SceneWorld, WeldGluesTwoBodies) {
 }
 
 TEST(SceneWorld, TiltTurnsTheScenesGravity) {
-    Scene scene = emptyScene();
-    scene.gravityMetresPerSecond2 = {0.0, -10.0};
+    Scene scene = sceneOf(10.0);
     scene.script = {at(0.1, TiltAction{1.5707963267948966}), at(0.2, GravityAction{{1.0, 2.0}}),
                     at(0.3, TiltAction{0.0})};
     World world(scene);
@@ -236,8 +226,8 @@ TEST(SceneWorld, TiltTurnsTheScenesGravity) {
 }
 
 TEST(SceneWorld, ImpulseChangesMomentumAndOffTheCentreSpin) {
-    Scene scene = emptyScene();
-    scene.bodies = {body("ball", CircleShape{0.5}, {2.0, 2.0}), body("other", CircleShape{0.5}, {2.0, 6.0})};
+    Scene scene = sceneOf(
+        0.0, {body("ball", CircleShape{0.5}, {2.0, 2.0}), body("other", CircleShape{0.5}, {2.0, 6.0})});
     scene.script = {{0.0, 4, 0.1, ImpulseAction{"ball", {5.0, 0.0}, {}}},
                     at(0.0, ImpulseAction{"other", {10.0, 0.0}, Vector{0.0, 0.5}})};
     World world(scene);
@@ -250,8 +240,7 @@ TEST(SceneWorld, ImpulseChangesMomentumAndOffTheCentreSpin) {
 }
 
 TEST(SceneWorld, VelocityMovesKinematicBodiesAndStopsThem) {
-    Scene scene = emptyScene();
-    scene.bodies = {body("lift", BoxShape{1.0, 0.2}, {5.0, 1.0}, BodyType::kinematicBody)};
+    Scene scene = sceneOf(0.0, {body("lift", BoxShape{1.0, 0.2}, {5.0, 1.0}, BodyType::kinematicBody)});
     scene.script = {at(0.5, VelocityAction{"lift", {0.0, 2.0}, 0.0}),
                     at(1.5, VelocityAction{"lift", {0.0, 0.0}, 0.0})};
     World world(scene);
@@ -260,8 +249,7 @@ TEST(SceneWorld, VelocityMovesKinematicBodiesAndStopsThem) {
 }
 
 Scene spawningScene() {
-    Scene scene = emptyScene();
-    scene.bodies = {body("first", CircleShape{0.2}, {1.0, 1.0})};
+    Scene scene = sceneOf(0.0, {body("first", CircleShape{0.2}, {1.0, 1.0})});
     scene.script = {{0.5, 3, 0.2, SpawnAction{body("stone", BoxShape{0.4, 0.4}, {3.0, 3.0}), {1.0, 0.5}}},
                     at(2.0, RemoveAction{"stone 2"}),
                     at(0.1, SpawnAction{body("last", CircleShape{1.0}, {8.0, 8.0}), {}})};
@@ -301,7 +289,7 @@ TEST(SceneWorld, FixtureNumbersFollowTheCast) {
 }
 
 TEST(SceneWorld, ABodyThatIsSpawnedAgainStartsAnew) {
-    Scene scene = emptyScene();
+    Scene scene = sceneOf(0.0);
     BodyDescription stone = body("stone", CircleShape{0.2}, {1.0, 5.0});
     stone.velocityMetresPerSecond = {2.0, 0.0};
     scene.script = {at(0.0, SpawnAction{stone, {}}), at(0.5, MaterialAction{"stone", everyFixture, 1}),
@@ -320,8 +308,7 @@ TEST(SceneWorld, ABodyThatIsSpawnedAgainStartsAnew) {
 }
 
 TEST(SceneWorld, ABodyThatIsSpawnedAgainTouchesAnew) {
-    Scene scene = emptyScene();
-    scene.bodies = {body("floor", BoxShape{4.0, 1.0}, {5.0, 0.5}, BodyType::staticBody)};
+    Scene scene = sceneOf(0.0, {body("floor", BoxShape{4.0, 1.0}, {5.0, 0.5}, BodyType::staticBody)});
     scene.script = {at(0.0, SpawnAction{body("stone", CircleShape{0.2}, {5.0, 1.19}), {}})};
     scene.scriptPeriodSeconds = 1.0;
     World world(scene);
@@ -332,10 +319,8 @@ TEST(SceneWorld, ABodyThatIsSpawnedAgainTouchesAnew) {
 }
 
 TEST(SceneWorld, RemovedBodiesCarryNothingAndWakeWhatLay) {
-    Scene scene = emptyScene();
-    scene.gravityMetresPerSecond2 = {0.0, -10.0};
-    scene.bodies = {body("shelf", BoxShape{2.0, 0.2}, {5.0, 5.0}, BodyType::staticBody),
-                    body("ball", CircleShape{0.2}, {5.0, 5.4})};
+    Scene scene = sceneOf(10.0, {body("shelf", BoxShape{2.0, 0.2}, {5.0, 5.0}, BodyType::staticBody),
+                                 body("ball", CircleShape{0.2}, {5.0, 5.4})});
     scene.script = {at(3.0, RemoveAction{"shelf"}), at(3.1, ImpulseAction{"shelf", {1.0, 0.0}, {}}),
                     at(3.1, VelocityAction{"shelf", {1.0, 0.0}, 0.0})};
     World world(scene);
@@ -346,7 +331,7 @@ TEST(SceneWorld, RemovedBodiesCarryNothingAndWakeWhatLay) {
 }
 
 TEST(SceneWorld, OnlyWhatIsThereHasABodyInBox2D) {
-    Scene scene = emptyScene();
+    Scene scene = sceneOf(0.0);
     scene.script = {at(0.0, SpawnAction{body("scripted", CircleShape{0.2}, {5.0, 5.0}), {}}),
                     at(0.1, RemoveAction{"scripted"})};
     World world(scene);
@@ -371,9 +356,8 @@ TEST(SceneWorld, OnlyWhatIsThereHasABodyInBox2D) {
 }
 
 TEST(SceneWorld, MaterialChangesSurfaceAndMass) {
-    Scene scene = emptyScene();
-    scene.bodies = {body("ball", CircleShape{0.5}, {5.0, 5.0}),
-                    body("printed", CircleShape{0.5}, {8.0, 5.0})};
+    Scene scene = sceneOf(
+        0.0, {body("ball", CircleShape{0.5}, {5.0, 5.0}), body("printed", CircleShape{0.5}, {8.0, 5.0})});
     scene.bodies[1].massKg = 3.0;
     scene.script = {at(0.1, MaterialAction{"ball", 0, 1}),
                     at(0.1, MaterialAction{"printed", everyFixture, 1})};
@@ -386,8 +370,7 @@ TEST(SceneWorld, MaterialChangesSurfaceAndMass) {
 }
 
 TEST(SceneWorld, AHeldDeviceIsTurnedAndHeavierOnTopOfTheScript) {
-    Scene scene = emptyScene();
-    scene.gravityMetresPerSecond2 = {0.0, -10.0};
+    Scene scene = sceneOf(10.0);
     scene.script = {at(0.1, HoldAction{2.0, 1.5707963267948966}), at(0.2, GravityAction{{1.0, 2.0}}),
                     at(0.3, TiltAction{1.5707963267948966}), at(0.4, HoldAction{1.0, 0.0})};
     World world(scene);
@@ -429,7 +412,7 @@ TEST(SceneWorld, SeedsMoveSpawnedBodiesToo) {
 }
 
 TEST(SceneWorld, BodiesInOnePlaceHaveNoMoreContactsThanAStepCanBear) {
-    Scene scene = emptyScene();
+    Scene scene = sceneOf(0.0);
     // 54,285 pairs
     for (int i = 0; i < 330; ++i)
         scene.bodies.push_back(body("ball " + std::to_string(i), CircleShape{0.2}, {5.0, 5.0}));

@@ -99,8 +99,7 @@ std::string barChart(const BarChart& chart) {
     const auto legend = legendOf(chart);
     const double right = chart.reference ? chartWidth - 10.0 - textWidth(chart.reference->second, smallSize)
                                          : chartWidth - 14.0;
-    double widest = 0.0;
-    for (const std::string& group : chart.groups) widest = std::max(widest, textWidth(group, labelSize));
+    const double widest = detail::widest(chart.groups, labelSize);
     const auto groups = static_cast<double>(std::max<std::size_t>(1, chart.groups.size()));
     const bool isTurned = widest > 0.95 * (right - leftMargin) / groups;
     const double turnedEdge =
@@ -111,8 +110,7 @@ std::string barChart(const BarChart& chart) {
     const double titleBottom = titleHeight(chart.frame.title, chartWidth);
     const double top = titleBottom + legendHeight(legend, right - leftEdge) + 8.0;
     const PlotArea area{leftEdge, top + 8.0, right, top + 8.0 + plotHeight};
-    Svg svg{chart.frame.name, chartWidth, area.bottom + labels + 24.0};
-    drawTitle(svg, chart.frame.title, chartWidth);
+    Svg svg{chart.frame, chartWidth, area.bottom + labels + 24.0};
     drawLegend(svg, legend, {leftEdge, titleBottom}, right - leftEdge);
     const BarDrawing drawing{chart, svg, area, valueAxis(chart)};
     drawValueAxis(svg, area, drawing.axis, chart.valueWords);
@@ -124,7 +122,7 @@ std::string barChart(const BarChart& chart) {
     drawing.groupLabels(isTurned, isUpright);
     svg.text({0.5 * (area.left + area.right), area.bottom + labels + 16.0}, chart.groupsWords,
              {labelSize, Anchor::middle});
-    return svg.finish(chart.frame.title, chart.frame.isSimulated);
+    return svg.finish();
 }
 
 namespace {
@@ -222,8 +220,7 @@ std::string lineChart(const LineChart& chart) {
     const double titleBottom = titleHeight(chart.frame.title, chart.width);
     const double top = titleBottom + legendHeight(legend, right - left) + 10.0;
     const PlotArea area{left, top, right, std::max(top + 160.0, chart.height - 48.0)};
-    Svg svg{chart.frame.name, chart.width, area.bottom + 48.0};
-    drawTitle(svg, chart.frame.title, chart.width);
+    Svg svg{chart.frame, chart.width, area.bottom + 48.0};
     drawLegend(svg, legend, {left, titleBottom}, right - left);
     const LineDrawing drawing{chart, svg, area,
                               axisOf(chart.isLogarithmic, chart.xRange, xs.least, xs.most, 8),
@@ -233,7 +230,7 @@ std::string lineChart(const LineChart& chart) {
     drawing.references();
     drawing.threshold();
     for (const LineSeries& series : chart.series) drawing.draw(series);
-    return svg.finish(chart.frame.title, chart.frame.isSimulated);
+    return svg.finish();
 }
 
 } // namespace physvib

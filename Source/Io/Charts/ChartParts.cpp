@@ -71,23 +71,21 @@ double titleHeight(const std::string& title, double width) {
     return 8.0 + 18.0 * static_cast<double>(wrapped(title, width - 16.0, titleSize).size());
 }
 
-void drawTitle(Svg& svg, const std::string& title, double width) {
-    double y = 0.0;
-    for (const std::string& line : wrapped(title, width - 16.0, titleSize))
-        svg.text({8.0, y += 18.0}, line, {titleSize, Anchor::start, 0.0, true});
+double widest(const std::vector<std::string>& labels, double size) noexcept {
+    double most = 0.0;
+    for (const std::string& label : labels) most = std::max(most, textWidth(label, size));
+    return most;
 }
 
 void drawValueAxis(Svg& svg, const PlotArea& area, const ChartAxis& axis, const std::string& words) {
-    double widest = 0.0;
     for (std::size_t i = 0; i < axis.ticks.size(); ++i) {
         const double y = area.y(axis, axis.ticks[i]);
         svg.line({area.left, y}, {area.right, y}, {"#ddd", 0.8});
         svg.line({area.left - 4.0, y}, {area.left, y});
         svg.text({area.left - 7.0, y + 4.0}, axis.tickWords[i], {smallSize, Anchor::end});
-        widest = std::max(widest, textWidth(axis.tickWords[i], smallSize));
     }
     svg.line({area.left, area.top}, {area.left, area.bottom});
-    svg.text({area.left - 14.0 - widest, 0.5 * (area.top + area.bottom)}, words,
+    svg.text({area.left - 14.0 - widest(axis.tickWords, smallSize), 0.5 * (area.top + area.bottom)}, words,
              {labelSize, Anchor::middle, -90.0});
 }
 
@@ -105,20 +103,18 @@ void drawAxisBelow(Svg& svg, const PlotArea& area, const ChartAxis& axis, const 
 namespace physvib {
 namespace {
 
-constexpr std::array<std::string_view, chartStyles> colours{"#0072B2", "#E69F00", "#009E73", "#CC79A7",
-                                                            "#D55E00", "#56B4E9", "#F0E442", "#000000"};
-constexpr std::array<std::string_view, chartStyles> dashes{"",     "7 3", "2 3", "9 3 2 3",
-                                                           "12 4", "4 4", "1 5", "14 3 3 3"};
-// In a tile of 8 x 8, white over the colour. The first has no hatch.
-constexpr std::array<std::string_view, chartStyles> hatchPaths{"",
-                                                               "M-2 10L10 -2M-2 2L2 -2M6 10L10 6",
-                                                               "M2 2h0.01M6 6h0.01",
-                                                               "M-2 -2L10 10M-2 6L2 10M6 -2L10 2",
-                                                               "M0 4H8",
-                                                               "M4 0V8",
-                                                               "M0 4H8M4 0V8",
-                                                               "M-2 10L10 -2M-2 -2L10 10"};
-constexpr std::array<double, chartStyles> hatchWidths{0.0, 1.6, 2.6, 1.6, 1.8, 1.8, 1.4, 1.2};
+struct SeriesStyle {
+    std::string_view colour, dash, hatch; // in a tile of 8 x 8, white over the colour; the first has none
+    double hatchWidth;
+};
+constexpr SeriesStyle styles[chartStyles]{{"#0072B2", "", "", 0.0},
+                                          {"#E69F00", "7 3", "M-2 10L10 -2M-2 2L2 -2M6 10L10 6", 1.6},
+                                          {"#009E73", "2 3", "M2 2h0.01M6 6h0.01", 2.6},
+                                          {"#CC79A7", "9 3 2 3", "M-2 -2L10 10M-2 6L2 10M6 -2L10 2", 1.6},
+                                          {"#D55E00", "12 4", "M0 4H8", 1.8},
+                                          {"#56B4E9", "4 4", "M4 0V8", 1.8},
+                                          {"#F0E442", "1 5", "M0 4H8M4 0V8", 1.4},
+                                          {"#000000", "14 3 3 3", "M-2 10L10 -2M-2 -2L10 10", 1.2}};
 
 constexpr std::string_view svgBegin = "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" viewBox=\"0 0 ";
 
@@ -153,9 +149,9 @@ std::string markup(std::string_view text) {
     return out;
 }
 
-std::string_view seriesColour(std::size_t series) noexcept { return colours[series % chartStyles]; }
+std::string_view seriesColour(std::size_t series) noexcept { return styles[series % chartStyles].colour; }
 
-std::string_view seriesDash(std::size_t series) noexcept { return dashes[series % chartStyles]; }
+std::string_view seriesDash(std::size_t series) noexcept { return styles[series % chartStyles].dash; }
 
 double textWidth(std::string_view text, double size) noexcept {
     double ems = 0.0;
@@ -184,10 +180,14 @@ std::string pixels(std::initializer_list<double> numbers) {
 
 void appendPoint(std::string& out, char command, ChartPoint at) { (out += command) += pixels({at.x, at.y}); }
 
-Svg::Svg(std::string name, double width, double height)
-    : name_{std::move(name)}
+Svg::Svg(ChartFrame frame, double width, double height)
+    : frame_{std::move(frame)}
     , width_{width}
-    , height_{height} {}
+    , height_{height} {
+    double y = 0.0;
+    for (const std::string& line : detail::wrapped(frame_.title, width - 16.0, detail::titleSize))
+        text({8.0, y += 18.0}, line, {detail::titleSize, Anchor::start, 0.0, true});
+}
 
 void Svg::open(std::string_view tag, std::initializer_list<std::pair<std::string_view, double>> numbers) {
     body_.append("<").append(tag);
@@ -248,10 +248,10 @@ void Svg::text(ChartPoint at, std::string_view words, TextStyle style) {
 
 void Svg::bar(ChartPoint corner, double width, double height, std::size_t series) {
     const std::size_t style = series % chartStyles;
-    rect(corner, width, height, colours[style], {"#222", 0.8});
-    if (hatchPaths[style].empty()) return;
+    rect(corner, width, height, styles[style].colour, {"#222", 0.8});
+    if (styles[style].hatch.empty()) return;
     hatches_ |= 1u << style;
-    rect(corner, width, height, "url(#" + name_ + "-h" + std::to_string(style) + ")");
+    rect(corner, width, height, "url(#" + frame_.name + "-h" + std::to_string(style) + ")");
 }
 
 void Svg::marker(ChartPoint at, std::size_t series, double r) {
@@ -260,7 +260,7 @@ void Svg::marker(ChartPoint at, std::size_t series, double r) {
         std::string d;
         for (const ChartPoint& corner : corners)
             appendPoint(d, d.empty() ? 'M' : 'L', {at.x + r * corner.x, at.y + r * corner.y});
-        path(d + "Z", colours[style], {"#222", 0.8});
+        path(d + "Z", styles[style].colour, {"#222", 0.8});
     };
     switch (style) {
     case 1: return around({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}});
@@ -282,7 +282,7 @@ void Svg::marker(ChartPoint at, std::size_t series, double r) {
                        {-0.4, -0.4}});
     case 6: return around({{0, -1.3}, {1.2, -0.4}, {0.75, 1.0}, {-0.75, 1.0}, {-1.2, -0.4}});
     case 7: return around({{-1.2, -0.6}, {1.2, -0.6}, {1.2, 0.6}, {-1.2, 0.6}});
-    default: ellipse(at, r, r, 0.0, colours[style], {"#222", 0.8});
+    default: ellipse(at, r, r, 0.0, styles[style].colour, {"#222", 0.8});
     }
 }
 
@@ -296,23 +296,23 @@ void Svg::whisker(ChartPoint from, ChartPoint to, Stroke stroke) {
     for (const ChartPoint& end : {from, to}) line({end.x - x, end.y + y}, {end.x + x, end.y - y}, stroke);
 }
 
-std::string Svg::finish(std::string_view words, bool isSimulated) const {
-    std::string out = svgHead(width_, height_) + "<title>" + markup(words) +
-                      (isSimulated ? " (simulated)" : "") + "</title>\n";
+std::string Svg::finish() const {
+    std::string out = svgHead(width_, height_) + "<title>" + markup(frame_.title) +
+                      (frame_.isSimulated ? " (simulated)" : "") + "</title>\n";
     if (hatches_ != 0) {
         out += "<defs>";
         for (std::size_t style = 0; style < chartStyles; ++style) {
             if ((hatches_ >> style & 1u) == 0) continue;
-            out += "<pattern id=\"" + name_ + "-h" + std::to_string(style) +
+            out += "<pattern id=\"" + frame_.name + "-h" + std::to_string(style) +
                    "\" width=\"8\" height=\"8\" patternUnits=\"userSpaceOnUse\"><path d=\"" +
-                   std::string(hatchPaths[style]) +
+                   std::string(styles[style].hatch) +
                    "\" stroke=\"#fff\" stroke-linecap=\"round\" fill=\"none\" stroke-width=\"" +
-                   pixels({hatchWidths[style]}) + "\"/></pattern>";
+                   pixels({styles[style].hatchWidth}) + "\"/></pattern>";
         }
         out += "</defs>\n";
     }
     out += ground + body_;
-    if (isSimulated) {
+    if (frame_.isSimulated) {
         const double size = 0.8 * std::hypot(width_, height_) / textWidth("SIMULATED", 1.0);
         out += "<text font-weight=\"bold\" fill=\"#b00020\" fill-opacity=\"0.1\" text-anchor=\"middle\" "
                "font-size=\"" +

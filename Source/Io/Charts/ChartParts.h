@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Parts common to all charts: SVG, title, legend, axes. For the .cpp files of Charts.
 #pragma once
+#include "Io/Charts/Charts.h"
 #include "Io/Text/NumberText.h"
 #include <algorithm>
 #include <cmath>
@@ -100,8 +101,8 @@ double textWidth(std::string_view text, double size) noexcept;
 /// A picture under construction. One thread at a time.
 class Svg {
 public:
-    /// `name`: letters, digits and -, unique on the page: prefix of its element ids.
-    Svg(std::string name, double width, double height);
+    /// Has the title at its top.
+    Svg(ChartFrame frame, double width, double height);
 
     void line(ChartPoint from, ChartPoint to, Stroke stroke = {});
     void rect(ChartPoint corner, double width, double height, std::string_view fill,
@@ -118,16 +119,17 @@ public:
     /// An interval with end ticks, edged in white so that it is visible on dark bars.
     void whisker(ChartPoint from, ChartPoint to, Stroke stroke = {});
 
-    /// The complete element; with `isSimulated` a watermark over all of it. `words`: alternative text.
-    std::string finish(std::string_view words, bool isSimulated) const;
+    /// The complete element; what is simulated has a watermark over all of it.
+    std::string finish() const;
 
 private:
     void open(std::string_view tag, std::initializer_list<std::pair<std::string_view, double>> numbers = {});
     void attribute(std::string_view name, std::string_view value);
     void close(const Stroke& stroke, std::string_view ofStroke = {});
 
-    std::string name_, body_;
+    ChartFrame frame_;
     double width_, height_;
+    std::string body_;
     unsigned hatches_ = 0; // one bit per series style whose hatch is used
 };
 
@@ -166,9 +168,11 @@ void drawLegend(Svg& svg, const std::vector<LegendItem>& items, ChartPoint corne
 /// Breaks text into lines of at most `width`. Any thread (allocates).
 std::vector<std::string> wrapped(std::string_view words, double width, double size);
 
-/// The title at the top, in lines, and the height that it takes.
+/// What the title at the top takes, in lines.
 double titleHeight(const std::string& title, double width);
-void drawTitle(Svg& svg, const std::string& title, double width);
+
+/// The widest of these. Any thread.
+double widest(const std::vector<std::string>& labels, double size) noexcept;
 
 void drawValueAxis(Svg& svg, const PlotArea& area, const ChartAxis& axis, const std::string& words);
 void drawAxisBelow(Svg& svg, const PlotArea& area, const ChartAxis& axis, const std::string& words);

@@ -80,30 +80,20 @@ struct GridDrawing {
                 svg.text({x, area.bottom + 14.0}, chart.columns[c], {10.0, Anchor::middle});
         }
     }
-    bool isTurned() const {
-        return std::ranges::any_of(chart.columns, [this](const std::string& words) {
-            return textWidth(words, 10.0) > cellWidth() - 2.0;
-        });
-    }
+    bool isTurned() const { return widest(chart.columns, 10.0) > cellWidth() - 2.0; }
 };
-
-double widest(const std::vector<std::string>& labels) {
-    double most = 0.0;
-    for (const std::string& label : labels) most = std::max(most, textWidth(label, 10.0));
-    return most;
-}
 
 } // namespace
 
 std::string gridChart(const GridChart& chart) {
     const double titleBottom = titleHeight(chart.frame.title, chart.width);
-    const double left = 26.0 + widest(chart.rows) + 6.0, right = chart.width - 10.0, top = titleBottom + 6.0;
+    const double left = 26.0 + widest(chart.rows, 10.0) + 6.0, right = chart.width - 10.0,
+                 top = titleBottom + 6.0;
     const double cell = std::min((right - left) / static_cast<double>(chart.columns.size()), 64.0);
     const double height = chart.shape * cell * static_cast<double>(chart.rows.size());
     const PlotArea area{left, top, left + cell * static_cast<double>(chart.columns.size()), top + height};
-    const double below = widest(chart.columns) > cell - 2.0 ? widest(chart.columns) + 10.0 : 18.0;
-    Svg svg{chart.frame.name, chart.width, area.bottom + below + 20.0};
-    drawTitle(svg, chart.frame.title, chart.width);
+    const double below = widest(chart.columns, 10.0) > cell - 2.0 ? widest(chart.columns, 10.0) + 10.0 : 18.0;
+    Svg svg{chart.frame, chart.width, area.bottom + below + 20.0};
     const GridDrawing drawing{chart, svg, area};
     for (std::size_t r = 0; r < chart.rows.size(); ++r)
         for (std::size_t c = 0; c < chart.columns.size(); ++c) drawing.cell(r, c);
@@ -112,7 +102,7 @@ std::string gridChart(const GridChart& chart) {
     svg.text({14.0, 0.5 * (area.top + area.bottom)}, chart.rowWords, {labelSize, Anchor::middle, -90.0});
     svg.text({0.5 * (area.left + area.right), area.bottom + below + 12.0}, chart.columnWords,
              {labelSize, Anchor::middle});
-    return svg.finish(chart.frame.title, chart.frame.isSimulated);
+    return svg.finish();
 }
 
 namespace {
@@ -240,8 +230,7 @@ std::string placeChart(const PlaceChart& chart) {
     const double titleBottom = titleHeight(chart.frame.title, chart.width);
     const double width = chart.width - 16.0;
     const PlotArea area{8.0, titleBottom, 8.0 + width, titleBottom + width * fieldShape};
-    Svg svg{chart.frame.name, chart.width, area.bottom + 8.0};
-    drawTitle(svg, chart.frame.title, chart.width);
+    Svg svg{chart.frame, chart.width, area.bottom + 8.0};
     const PlaceDrawing drawing{chart, svg, area};
     drawing.territory();
     drawing.places();
@@ -249,7 +238,7 @@ std::string placeChart(const PlaceChart& chart) {
     drawing.ellipses();
     drawing.labels();
     svg.rect({area.left, area.top}, area.width(), area.height(), "none", {"#222", 1.0});
-    return svg.finish(chart.frame.title, chart.frame.isSimulated);
+    return svg.finish();
 }
 
 } // namespace physvib

@@ -14,6 +14,9 @@ namespace physvib {
 /// The parent folder; "." for a name alone. Any thread.
 std::filesystem::path folderOf(const std::filesystem::path& file);
 
+/// A file's name without its folders. Any thread.
+inline std::string leafOf(const std::filesystem::path& file) { return file.filename().string(); }
+
 /// True if both name one file, existing or not; links and folders may be spelled in any way. Any thread.
 bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b);
 

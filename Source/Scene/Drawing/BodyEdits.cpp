@@ -168,12 +168,7 @@ Scene newScene(const Scene& like, SceneGround ground) {
         std::ranges::find_if(scene.materials, [](const Material& m) { return m.frequencyHz > 0.0; });
     const bool isFelt = felt != scene.materials.end();
     const auto wall = [&](const char* name, double x, double y, double width, double height) {
-        BodyDescription body;
-        body.name = name;
-        body.type = BodyType::staticBody;
-        body.positionMetres = {x, y};
-        body.fixtures.resize(1);
-        body.fixtures[0].shape = BoxShape{width, height};
+        BodyDescription body{name, BodyType::staticBody, {{BoxShape{width, height}, {}}}, {x, y}, 0.0, {}};
         if (isFelt) {
             body.fixtures[0].material = static_cast<int>(felt - scene.materials.begin());
             setSource(scene, body, true);

@@ -161,12 +161,7 @@ Failure tooSmall(const char* what) {
 }
 
 BodyDescription bodyOf(Shape shape, const Vector& at, BodyType type) {
-    BodyDescription body;
-    body.type = type;
-    body.positionMetres = at;
-    body.fixtures.resize(1);
-    body.fixtures[0].shape = std::move(shape);
-    return body;
+    return {{}, type, {{std::move(shape), {}}}, at, 0.0, {}};
 }
 
 /// Counter-clockwise.

@@ -90,10 +90,8 @@ int writeSweep(const CalibrateOptions& o) {
     const int rate = o.sampleRateHz > 0 ? o.sampleRateHz : 48000;
     WavSink wav(o.sweepPath, 1, rate, "physvib " PHYSVIB_VERSION " sweep");
     const auto samples = sweepOf(sweepSettings(o), rate);
-    for (std::size_t at = 0; at < samples.size(); at += 4096) {
-        const float* const from = samples.data() + at;
-        wav.write(&from, static_cast<int>(std::min<std::size_t>(4096, samples.size() - at)));
-    }
+    const float* const all = samples.data();
+    wav.write(&all, static_cast<int>(samples.size()));
     if (const std::string& error = wav.finish(); !error.empty()) return leave(exitFailed, error);
     std::cout << o.sweepPath
               << "  play it, record what the actuator does, and give both to physvib calibrate\n";

@@ -6,6 +6,7 @@
 #include "CommandLine/Music/BeatOptions.h"
 #include "Host/Music/BeatDetector.h"
 #include "Io/Disk/AtomicFile.h"
+#include "Io/Disk/FileClash.h"
 #include "Io/Text/NameList.h"
 #include "Io/Wav/WavSink.h"
 #include "Live/Recordings/ReadRecording.h"
@@ -13,7 +14,6 @@
 #include "Scene/EventsCsv.h"
 #include "Scene/LayoutFile.h"
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -31,6 +31,10 @@ struct BeatsOptions {
     std::string layout = "phone4";
     BeatOptions beats;
 };
+
+Provenance provenanceOf(const BeatsOptions& o) {
+    return {PHYSVIB_VERSION, {{"music", leafOf(o.music)}, {"layout", o.layout}}};
+}
 
 std::string rateFault(int rateHz) {
     if (isSampleRate(rateHz)) return {};
@@ -113,13 +117,10 @@ private:
 /// Plays the filtered music on some channels.
 class ThroughTaker final : public MonoTaker {
 public:
-    ThroughTaker(std::string path, int channels, EnchanterSet felt, FrequencyBand band, float level,
-                 std::string comment)
-        : path_{std::move(path)}
+    ThroughTaker(const BeatsOptions& options, int channels, EnchanterSet felt, FrequencyBand band)
+        : options_{options}
         , felt_{felt}
         , band_{band}
-        , level_{level}
-        , comment_{std::move(comment)}
         , channels_(static_cast<std::size_t>(channels)) {}
     std::string finish() { return wav_->finish(); }
 
@@ -128,36 +129,32 @@ private:
         if (band_.lowHz >= 0.5 * rateHz())
             return "expected a band that begins below half the rate, " + std::to_string(rateHz() / 2) + " Hz";
         pass_.emplace(band_, rateHz());
-        wav_ = std::make_unique<WavSink>(path_, static_cast<int>(channels_.size()), rateHz(), comment_);
-        return wav_->error();
+        return wav_
+            .emplace(options_.wavPath, static_cast<int>(channels_.size()), rateHz(),
+                     provenanceLine(provenanceOf(options_)))
+            .error();
     }
     std::string take(std::span<float> mono) override {
         pass_->process(mono);
-        for (float& sample : mono) sample = std::clamp(level_ * sample, -1.0f, 1.0f);
+        const auto level = static_cast<float>(options_.beats.level);
+        for (float& sample : mono) sample = std::clamp(level * sample, -1.0f, 1.0f);
         silence_.assign(mono.size(), 0.0f);
         for (std::size_t j = 0; j < channels_.size(); ++j)
             channels_[j] = felt_[j] ? mono.data() : silence_.data();
         return wav_->write(channels_.data(), static_cast<int>(mono.size())) ? "" : wav_->error();
     }
 
-    std::string path_;
+    const BeatsOptions& options_;
     EnchanterSet felt_;
     FrequencyBand band_;
-    float level_;
-    std::string comment_;
     std::vector<const float*> channels_;
     std::optional<BandPass> pass_;
-    std::unique_ptr<WavSink> wav_;
+    std::optional<WavSink> wav_;
     std::vector<float> silence_;
 };
 
-Provenance provenanceOf(const BeatsOptions& o) {
-    return {PHYSVIB_VERSION,
-            {{"music", std::filesystem::path{o.music}.filename().string()}, {"layout", o.layout}}};
-}
-
-std::string renderTo(WavSink& wav, std::span<const CollisionEvent> events, const EnchanterLayout& layout,
-                     int rateHz, std::int64_t frames) {
+void renderTo(WavSink& wav, std::span<const CollisionEvent> events, const EnchanterLayout& layout, int rateHz,
+              std::int64_t frames) {
     OfflineSettings settings;
     settings.renderer.sampleRateHz = rateHz;
     settings.renderer.panner = PhantomPanner{layout, PanningLaw::automatic, 1.0, layout.extentWidthMetres,
@@ -167,7 +164,6 @@ std::string renderTo(WavSink& wav, std::span<const CollisionEvent> events, const
         return wav.write(channels, count);
     });
     warnOf(status.rejected, "strikes that could not be played at " + std::to_string(rateHz) + " Hz");
-    return wav.error();
 }
 
 int runStrikes(const BeatsOptions& o, const LayoutDescription& layout) {
@@ -182,14 +178,11 @@ int runStrikes(const BeatsOptions& o, const LayoutDescription& layout) {
     const auto& events = beats.events();
     if (events.empty())
         return leave(exitFailed, o.music + ": expected beats, found none (see --sensitivity)");
-    std::unique_ptr<WavSink> wav;
+    std::optional<WavSink> wav;
     if (!o.wavPath.empty()) {
-        wav = std::make_unique<WavSink>(o.wavPath, layout.geometry.count, beats.rateHz(),
-                                        provenanceLine(provenanceOf(o)));
-        std::string error = wav->error();
-        if (error.empty()) error = renderTo(*wav, events, layout.geometry, beats.rateHz(), beats.frames());
-        if (error.empty()) error = wav->complete();
-        if (!error.empty()) return leave(exitFailed, error);
+        wav.emplace(o.wavPath, layout.geometry.count, beats.rateHz(), provenanceLine(provenanceOf(o)));
+        if (wav->error().empty()) renderTo(*wav, events, layout.geometry, beats.rateHz(), beats.frames());
+        if (!wav->complete().empty()) return leave(exitFailed, wav->error());
     }
     if (list && (!list->write(eventsCsv(events, extentOf(layout.geometry), provenanceOf(o))).empty() ||
                  !list->commit().empty()))
@@ -213,8 +206,7 @@ int runThrough(const BeatsOptions& o, const LayoutDescription& layout) {
     if (!o.enchanters.empty() && !parseEnchanters(o.enchanters, count, felt))
         return leave(exitUsage, "--enchanters: expected letters of the " + std::to_string(count) +
                                     " actuators, each once, like AC, found " + inQuotes(o.enchanters));
-    ThroughTaker through{
-        o.wavPath, count, felt, *band, static_cast<float>(o.beats.level), provenanceLine(provenanceOf(o))};
+    ThroughTaker through{o, count, felt, *band};
     if (const std::string fault = streamRecording(o.music, through); !fault.empty())
         return leave(exitFailed, fault);
     if (const std::string error = through.finish(); !error.empty()) return leave(exitFailed, error);

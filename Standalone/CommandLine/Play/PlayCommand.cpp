@@ -43,12 +43,14 @@ struct PlayOptions {
     int blockFrames = 0;                ///< 0: device default
 };
 
-/// "1,2,3" to {0, 1, 2}; an empty text gives an empty map. False for any other text.
-bool parseMap(const std::string& text, std::vector<int>& map) {
-    if (text.empty()) return true;
-    if (!parseNumbers(text, map) || *std::min_element(map.begin(), map.end()) < 1) return false;
+/// "1,2,3" to {0, 1, 2}; an empty text gives an empty map. The fault of any other text.
+std::string takeMap(std::string_view option, const std::string& like, const std::string& text,
+                    std::vector<int>& map, int most = std::numeric_limits<int>::max()) {
+    const auto isKnown = [most](int number) { return number >= 1 && number <= most; };
+    if (!text.empty() && !(parseNumbers(text, map) && std::ranges::all_of(map, isKnown)))
+        return std::string{option} + ": expected " + like + ", found " + inQuotes(text);
     for (int& output : map) --output;
-    return true;
+    return {};
 }
 
 float gainOf(double decibels) { return static_cast<float>(fromDecibels(decibels)); }
@@ -273,27 +275,21 @@ int runPlay(const OptionTable& command, PlayOptions& o) {
             : std::filesystem::path{o.live.rig.savePath}.replace_extension(".events.csv").string()};
     if (auto clash = fileClash(written, job.namedInputs()); !clash.empty()) return leave(exitUsage, clash);
     AudioOutputSettings settings{o.device, {}, 0, o.blockFrames, gainOf(o.levelDb)};
-    if (!parseMap(o.map, settings.channelMap))
-        return leave(exitUsage, "--map: expected outputs like 1,2,3,4, found \"" + o.map + "\"");
-    if (dualsense::isDevice(o.device)) {
+    const std::string actuatorsOf = "actuators like 1,2, of " + std::to_string(job.channels());
+    ListeningSettings& listening = settings.listening;
+    for (const std::string& fault :
+         {takeMap("--map", "outputs like 1,2,3,4", o.map, settings.channelMap),
+          takeMap("--on-off", actuatorsOf, o.onOff, settings.onOff, job.channels()),
+          takeMap("--noise", "outputs like 5,6", o.noise, listening.noise),
+          takeMap("--contact-sound", "outputs like 5,6", o.scene.contactSound, listening.contacts),
+          takeMap("--marker", "outputs like 8", o.scene.marker, listening.marks),
+          takeMap("--beats", "inputs like 1,2", o.beatInputs, settings.inputs)})
+        if (!fault.empty()) return leave(exitUsage, fault);
+    if (dualsense::isDevice(o.device))
         if (const int code = takeDualSense(settings, job.channels()); code != exitDone) return code;
-    }
-    if (!parseMap(o.onOff, settings.onOff) ||
-        std::ranges::any_of(settings.onOff, [&](int j) { return j >= job.channels(); }))
-        return leave(exitUsage, "--on-off: expected actuators like 1,2, of " +
-                                    std::to_string(job.channels()) + ", found \"" + o.onOff + "\"");
     settings.onOffThreshold = o.threshold;
-    settings.listening.noiseDb = o.noiseDb;
-    settings.listening.contactDb = o.scene.contactSoundDb;
-    if (!parseMap(o.noise, settings.listening.noise))
-        return leave(exitUsage, "--noise: expected outputs like 5,6, found \"" + o.noise + "\"");
-    if (!parseMap(o.scene.contactSound, settings.listening.contacts))
-        return leave(exitUsage,
-                     "--contact-sound: expected outputs like 5,6, found \"" + o.scene.contactSound + "\"");
-    if (!parseMap(o.scene.marker, settings.listening.marks))
-        return leave(exitUsage, "--marker: expected outputs like 8, found \"" + o.scene.marker + "\"");
-    if (!parseMap(o.beatInputs, settings.inputs))
-        return leave(exitUsage, "--beats: expected inputs like 1,2, found \"" + o.beatInputs + "\"");
+    listening.noiseDb = o.noiseDb;
+    listening.contactDb = o.scene.contactSoundDb;
     const auto voices = beatVoicesOf(o.beats, job.channels());
     if (!voices) return leave(exitUsage, voices.error);
     SessionSetup setup = setupOf(o, job);

@@ -36,9 +36,8 @@ StrikeGains gainsOf(const LoadedRender& job) {
 HitExport hitsOf(const LoadedRender& job) {
     const std::string& actuator = job.options.actuator;
     const bool isOwn = actuator == "none" || actuator == "layout";
-    return {job.source(),       std::filesystem::path{job.source()}.filename().string(),
-            job.made.events,    job.layout,
-            job.options.layout, isOwn ? std::string{} : actuator};
+    return {job.source(), leafOf(job.source()), job.made.events,
+            job.layout,   job.options.layout,   isOwn ? std::string{} : actuator};
 }
 
 Result<Clip> clipOf(const LoadedRender& job, double error) {

@@ -5,9 +5,11 @@
 #include "Calls/RenderJob.h"
 #include "Core/Limits.h"
 #include "Core/Units.h"
+#include "Io/Disk/FileClash.h"
 #include "Io/Text/NumberText.h"
 #include "Pictures/RenderPicture.h"
 #include "Pictures/WaveformEnvelope.h"
+#include "Scene/EventsCsv.h"
 #include "Scene/FieldSize.h"
 #include "System/Process.h"
 #include <algorithm>
@@ -72,17 +74,9 @@ inline std::string collisionWords(const LoadedRender& job) {
 
 namespace {
 
-std::string open(std::optional<AtomicFile>& file, const std::string& path) {
-    if (path.empty()) return {};
-    file.emplace(path);
-    return file->error();
-}
-
-std::string open(std::unique_ptr<WavSink>& wav, const std::string& path, int channels, int sampleRateHz,
-                 const std::string& provenance) {
-    if (path.empty()) return {};
-    wav = std::make_unique<WavSink>(path, channels, sampleRateHz, provenance);
-    return wav->error();
+/// Opens a file that has a path.
+std::string open(auto& file, const std::string& path, const auto&... of) {
+    return path.empty() ? std::string{} : file.emplace(path, of...).error();
 }
 
 } // namespace
@@ -94,22 +88,21 @@ RenderOutputs::RenderOutputs(const LoadedRender& job)
 
 std::string RenderOutputs::open() {
     const RenderJob& o = job_.options;
-    std::string error = o.pad.empty() ? std::string{} : openMotors();
-    if (error.empty())
-        error = physvib::open(wav_, o.pad.empty() ? o.wavPath : "", job_.channels(), o.sampleRateHz,
-                              provenanceText());
+    std::string error =
+        o.pad.empty() ? physvib::open(wav_, o.wavPath, job_.channels(), o.sampleRateHz, provenanceText())
+                      : openMotors();
+    const std::string text = provenanceText();
     if (error.empty())
         error = physvib::open(contactWav_, o.contactSound, o.contactSoundEars, o.sampleRateHz,
-                              provenanceText() + " heard=contact_sound");
+                              text + " heard=contact_sound");
     if (error.empty())
         error = physvib::open(markerWav_, o.marker, 1, o.sampleRateHz,
-                              provenanceText() + " marked=" + std::string{nameOf(o.marked)});
+                              text + " marked=" + std::string{nameOf(o.marked)});
     for (const auto& [file, path] : {std::pair{&eventsFile_, &o.eventsPath},
                                      {&pictureFile_, &o.picturePath},
                                      {&patternFile_, &o.patternPath}})
         if (error.empty()) error = physvib::open(*file, *path);
-    if (error.empty() && !o.moviePath.empty())
-        error = movie_.emplace(o.moviePath, o.sampleRateHz, o.contactSoundEars).error();
+    if (error.empty()) error = physvib::open(movie_, o.moviePath, o.sampleRateHz, o.contactSoundEars);
     return error;
 }
 
@@ -153,16 +146,16 @@ void RenderOutputs::tellMarks(const OnsetMarks& marks) { markWords_ = physvib::m
 
 std::string RenderOutputs::finish() {
     std::string error;
-    for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
-        if (error.empty() && wav) error = wav->complete();
+    for (auto* wav : {&wav_, &contactWav_, &markerWav_})
+        if (error.empty() && *wav) error = (*wav)->complete();
     if (error.empty() && eventsFile_)
         error = eventsFile_->write(eventsCsv(job_.made.events, job_.saidField(), provenance(), job_.names()));
     if (error.empty() && movie_) error = movie_->draw(pictureInput(), poses());
     if (error.empty() && pictureFile_) error = writePictureFile();
     if (error.empty() && patternFile_) error = patternFile_->write(pattern_.csv(provenance()));
     if (error.empty() && motorsFile_) error = motorsFile_->write(motorsCsv(motors_, provenance()));
-    for (auto* wav : {wav_.get(), contactWav_.get(), markerWav_.get()})
-        if (error.empty() && wav) error = wav->finish();
+    for (auto* wav : {&wav_, &contactWav_, &markerWav_})
+        if (error.empty() && *wav) error = (*wav)->finish();
     for (auto* file : {&eventsFile_, &pictureFile_, &patternFile_, &motorsFile_})
         if (error.empty() && *file) error = (*file)->commit();
     if (error.empty() && movie_) error = movie_->commit();
@@ -172,36 +165,34 @@ std::string RenderOutputs::finish() {
 Provenance RenderOutputs::provenance() const {
     const RenderJob& o = job_.options;
     Provenance p = inputProvenance();
-    if (!job_.method().fixesNothing() || o.playsRecordings) p.entries.emplace_back("method", o.methodName());
-    if (job_.method().fixesAmplitude && !job_.method().holdsLevel)
-        p.entries.emplace_back("fixed-level", "each");
-    if (o.limiting == Limiting::blocks) p.entries.emplace_back("limiter", "blocks");
-    if (o.levelDb != 0.0) p.entries.emplace_back("level_db", numberText(o.levelDb));
-    if (o.isWeighted) p.entries.emplace_back("perceived_level", "on");
+    const auto add = [&p](const char* key, std::string value) {
+        p.entries.emplace_back(key, std::move(value));
+    };
+    if (!job_.method().fixesNothing() || o.playsRecordings) add("method", o.methodName());
+    if (job_.method().fixesAmplitude && !job_.method().holdsLevel) add("fixed-level", "each");
+    if (o.limiting == Limiting::blocks) add("limiter", "blocks");
+    if (o.levelDb != 0.0) add("level_db", numberText(o.levelDb));
+    if (o.isWeighted) add("perceived_level", "on");
     for (const RecordedSound& sound : o.sounds)
-        p.entries.emplace_back("sound", sound.name() + '=' +
-                                            std::filesystem::path{sound.path}.filename().string() +
-                                            (o.matchesStrength ? ":rms" : ""));
-    if (o.actuator != "none")
-        p.entries.emplace_back("actuator", std::filesystem::path{o.actuator}.filename().string());
-    if (o.actuator != "none" && !o.isEqualised) p.entries.emplace_back("equalise", "off");
-    if (!o.pad.empty()) p.entries.emplace_back("pad", pad_.name);
-    if (o.interfaceVolts > 0.0) p.entries.emplace_back("interface_volts", numberText(o.interfaceVolts));
-    if (o.isRemapped) p.entries.emplace_back("remap", "on");
-    if (!o.coupling.empty())
-        p.entries.emplace_back("coupling", std::filesystem::path{o.coupling}.filename().string());
+        add("sound", sound.name() + '=' + leafOf(sound.path) + (o.matchesStrength ? ":rms" : ""));
+    if (o.actuator != "none") add("actuator", leafOf(o.actuator));
+    if (o.actuator != "none" && !o.isEqualised) add("equalise", "off");
+    if (!o.pad.empty()) add("pad", pad_.name);
+    if (o.interfaceVolts > 0.0) add("interface_volts", numberText(o.interfaceVolts));
+    if (o.isRemapped) add("remap", "on");
+    if (!o.coupling.empty()) add("coupling", leafOf(o.coupling));
     return p;
 }
 
 Provenance RenderOutputs::inputProvenance() const {
     const RenderJob& o = job_.options;
-    if (job_.clip) return {PHYSVIB_VERSION, {{"clip", std::filesystem::path{o.scene}.filename().string()}}};
+    if (job_.clip) return {PHYSVIB_VERSION, {{"clip", leafOf(o.scene)}}};
     if (!job_.scene) return {PHYSVIB_VERSION, {{"events", std::to_string(job_.made.events.size())}}};
     Provenance p{PHYSVIB_VERSION,
                  {{"scene", job_.scene->name},
                   {"seed", std::to_string(job_.session ? job_.session->log.takes.front().seed : o.seed)},
                   {"steps_per_second", std::to_string(job_.run().stepsPerSecond)}}};
-    if (job_.session) p.entries.emplace_back("session", std::filesystem::path{o.scene}.filename().string());
+    if (job_.session) p.entries.emplace_back("session", leafOf(o.scene));
     if (job_.run().timing != ImpactTiming::onset) p.entries.emplace_back("timing", "release");
     if (job_.run().location != ImpactLocation::contact) p.entries.emplace_back("location", "fixture");
     for (const SceneVariable& variable : job_.scene->variables)
@@ -235,7 +226,7 @@ PoseSource RenderOutputs::poses() const {
 PictureInput RenderOutputs::pictureInput() const {
     const auto& events = job_.made.events;
     PictureInput picture;
-    picture.title = job_.scene ? job_.scene->name : std::filesystem::path{job_.source()}.filename().string();
+    picture.title = job_.scene ? job_.scene->name : leafOf(job_.source());
     picture.subtitle = job_.scene ? job_.scene->description : job_.clip ? "a clip" : "an event list";
     picture.fieldWidthMetres = job_.fieldWidthMetres();
     picture.fieldHeightMetres = job_.fieldHeightMetres();

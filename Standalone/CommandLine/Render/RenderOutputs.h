@@ -12,7 +12,6 @@
 #include "Pictures/WaveformEnvelope.h"
 #include "Scene/PadFile.h"
 #include <iosfwd>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -127,7 +126,7 @@ private:
     std::optional<AtomicFile> eventsFile_, pictureFile_, patternFile_, motorsFile_;
     PadProfile pad_;
     std::vector<PadCommand> motors_;
-    std::unique_ptr<WavSink> wav_, contactWav_, markerWav_;
+    std::optional<WavSink> wav_, contactWav_, markerWav_;
     ScaledBlock inVolts_;
     std::string markWords_;
     OnOffPattern pattern_;

@@ -3,16 +3,16 @@
 #include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Study/StudyOutput.h"
-#include "Core/Limits.h"
 #include "Core/Samples.h"
+#include "Io/Disk/FileClash.h"
 #include "Io/Wav/WavSink.h"
 #include "Lab/Study/Stimulus.h"
 #include "Live/Recordings/ReadRecording.h"
 #include "Live/Session/SessionRender.h"
 #include "Pictures/RenderPicture.h"
 #include "Scene/LayoutFile.h"
-#include <filesystem>
 #include <optional>
+#include <vector>
 
 namespace physvib {
 namespace {
@@ -27,7 +27,7 @@ struct MadeStimulus {
 std::string titleOf(const StimulusJob& job, const StimulusOptions& o) {
     const auto* const phantom = std::get_if<PhantomJob>(&job.what);
     if (phantom == nullptr) return o.pattern.label;
-    if (!phantom->recording.empty()) return std::filesystem::path{phantom->recording}.filename().string();
+    if (!phantom->recording.empty()) return leafOf(phantom->recording);
     return o.cell.empty() ? "phantom at " + o.at : "phantom " + o.cell + " of " + o.grid;
 }
 
@@ -59,15 +59,11 @@ Result<StimulusSound> soundOf(const StimulusJob& job, const StimulusOptions& o,
     return renderStimulus(stimulus.value, layout, o.sampleRateHz);
 }
 
-void writeWav(const StimulusSound& sound, WavSink& sink) {
+/// Where its channels begin.
+std::vector<const float*> channelsOf(const StimulusSound& sound) {
     std::vector<const float*> at;
     for (const auto& channel : sound.channels) at.push_back(channel.data());
-    const auto frames = static_cast<int>(sound.channels.front().size());
-    for (int done = 0; done < frames; done += limits::maxBlockFrames) {
-        const int block = std::min(limits::maxBlockFrames, frames - done);
-        sink.write(at.data(), block);
-        for (auto& channel : at) channel += block;
-    }
+    return at;
 }
 
 std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const LayoutDescription& layout,
@@ -76,8 +72,7 @@ std::string pictureOf(const MadeStimulus& made, const StimulusOptions& o, const 
     const int channels = static_cast<int>(made.sound.channels.size());
     WaveformEnvelope whole{channels, 0, frames},
         start{channels, 0, std::min<std::int64_t>(frames, made.sound.sampleRateHz / 10)};
-    std::vector<const float*> at;
-    for (const auto& channel : made.sound.channels) at.push_back(channel.data());
+    const auto at = channelsOf(made.sound);
     whole.add(at.data(), static_cast<int>(frames));
     start.add(at.data(), static_cast<int>(frames));
     PictureInput picture;
@@ -103,8 +98,9 @@ int write(const MadeStimulus& made, const StimulusOptions& o, const LayoutDescri
          {{"stimulus", made.title}, {"layout", o.job.layout}, {"level_g", numberText(o.job.levelG)}}});
     std::optional<WavSink> wav;
     if (!o.wavPath.empty()) {
-        writeWav(made.sound, wav.emplace(o.wavPath, static_cast<int>(made.sound.channels.size()),
-                                         made.sound.sampleRateHz, provenance));
+        wav.emplace(o.wavPath, static_cast<int>(made.sound.channels.size()), made.sound.sampleRateHz,
+                    provenance)
+            .write(channelsOf(made.sound).data(), static_cast<int>(made.sound.channels.front().size()));
         if (const auto& error = wav->complete(); !error.empty()) return leave(exitFailed, error);
     }
     if (const int code =
