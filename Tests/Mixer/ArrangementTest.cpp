@@ -123,7 +123,7 @@ TEST_F(ArrangedView, ASmallWindowFoldsTheStripsUntilOneAsksForThem) {
         EXPECT_TRUE(the(view, title).isVisible()) << title;
     const auto field = fieldSize();
     EXPECT_GE(field.x * field.y / (1024.0f * 700.0f), 0.3f);
-    view.keyPressed(juce::KeyPress{juce::KeyPress::F3Key});
+    view.keyPressed(KeyPress{KeyPress::F3Key});
     EXPECT_TRUE(the(view, "Mixer").isVisible());
     EXPECT_EQ(view.order(), "engineer - 01");
     view.setSize(1280, 800);
@@ -161,21 +161,21 @@ TEST_F(ArrangedView, ToPlayThereIsTheWorldAndWhatSilencesLimitsAndWarns) {
     const std::initializer_list<const char*> engineers{"Tabs", "Scope", "Drag strength", "Seed",
                                                        "Slow motion"};
     areThere(engineers, true);
-    view.keyPressed(juce::KeyPress{juce::KeyPress::F2Key});
+    view.keyPressed(KeyPress{KeyPress::F2Key});
     ASSERT_EQ(view.mode(), Mode::play);
     areThere(engineers, false);
     areThere({"Silence", "Record", "Tools", "Master gain, in a row", "Strongest hit", "Device state", "Mode"},
              true);
     areThere({"Mixer"}, false);
-    view.keyPressed(juce::KeyPress{juce::KeyPress::F3Key});
+    view.keyPressed(KeyPress{KeyPress::F3Key});
     areThere({"Mixer", "Scope"}, true);
     areThere({"Master in a row"}, false);
-    view.keyPressed(juce::KeyPress{juce::KeyPress::F4Key});
+    view.keyPressed(KeyPress{KeyPress::F4Key});
     areThere({"Tabs"}, true);
     model.report("a fault");
     model.dispatchPendingMessages();
     areThere({"Trouble"}, true);
-    view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    view.keyPressed(KeyPress{KeyPress::escapeKey});
     EXPECT_TRUE(model.isSilent());
     const auto order = view.order();
     view.setMode(Mode::engineer);
@@ -242,9 +242,9 @@ TEST_F(ArrangedView, ADividerIsDraggedMovedByKeysAndMadeAutomatic) {
     divider->onMove(-50);
     EXPECT_NEAR(tabs.getWidth(), before + 50, 1);
     const int dragged = tabs.getWidth();
-    EXPECT_TRUE(divider->keyPressed(juce::KeyPress{juce::KeyPress::rightKey}));
+    EXPECT_TRUE(divider->keyPressed(KeyPress{KeyPress::rightKey}));
     EXPECT_NEAR(tabs.getWidth(), dragged - 16, 1);
-    EXPECT_FALSE(divider->keyPressed(juce::KeyPress{juce::KeyPress::upKey}));
+    EXPECT_FALSE(divider->keyPressed(KeyPress{KeyPress::upKey}));
     const auto kept = view.dividers();
     EXPECT_GT(kept.side, 0.0);
     divider->mouseDoubleClick(mouseAt(*divider, {4.0f, 4.0f}));
@@ -255,7 +255,7 @@ TEST_F(ArrangedView, ADividerIsDraggedMovedByKeysAndMadeAutomatic) {
     const int high = the(view, "Scope").getHeight();
     lower.onMove(-40);
     EXPECT_NEAR(the(view, "Scope").getHeight(), high + 40, 1);
-    EXPECT_TRUE(lower.keyPressed(juce::KeyPress{juce::KeyPress::downKey}));
+    EXPECT_TRUE(lower.keyPressed(KeyPress{KeyPress::downKey}));
     EXPECT_NEAR(the(view, "Scope").getHeight(), high + 24, 1);
     auto& between = the<Divider>(view, "Divider of scope and strips");
     const int wide = the(view, "Mixer").getWidth();
@@ -329,7 +329,7 @@ TEST_F(ArrangedView, AShowIsTheWorldAndTheButtonThatSilences) {
     EXPECT_GE(silence.getWidth(), 120);
     for (const char* title : {"Tabs", "Scope", "Mixer", "Tools", "Record", "Drag strength"})
         EXPECT_FALSE(the(view, title).isVisible()) << title;
-    view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    view.keyPressed(KeyPress{KeyPress::escapeKey});
     EXPECT_TRUE(model.isSilent());
     view.setShow(false);
     for (const char* title : {"Tabs", "Scope", "Mixer", "Tools", "Record", "Drag strength"})

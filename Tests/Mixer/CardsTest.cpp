@@ -35,7 +35,7 @@ TEST(FileCard, ATypedNameStaysInAnotherFolderAndGetsItsEnding) {
     asked.card->accept();
     EXPECT_EQ(asked.card->folder(), asked.folder("inner"));
     EXPECT_EQ(asked.card->name(), "my hands");
-    asked.card->keyPressed(juce::KeyPress{juce::KeyPress::returnKey});
+    asked.card->keyPressed(KeyPress{KeyPress::returnKey});
     EXPECT_EQ(asked.taken, asked.folder("inner").getChildFile("my hands.json"));
 }
 
@@ -81,7 +81,7 @@ TEST(FileCard, ListsFoldersAndFilesOfTheEndingAndOpensOnlyWhatIsThere) {
     EXPECT_EQ(asked.card->name(), "there");
     asked.card->accept();
     EXPECT_EQ(asked.taken, asked.folder("there.json"));
-    asked.card->keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    asked.card->keyPressed(KeyPress{KeyPress::escapeKey});
     EXPECT_EQ(asked.cancelled, 1);
 }
 
@@ -105,7 +105,7 @@ TEST(QuestionCard, FieldsAreReadAndEscIsTheAnswerThatHasIt) {
         "Render", "How long?",
         std::vector<QuestionCard::Answer>{
             {"Take", [&] { taken = view.question()->value("Seconds"); }},
-            {"Cancel", [&] { isCancelled = true; }, true, juce::KeyPress{juce::KeyPress::escapeKey}}},
+            {"Cancel", [&] { isCancelled = true; }, true, KeyPress{KeyPress::escapeKey}}},
         std::vector<QuestionCard::Field>{{"Seconds", "2.5"}}));
     auto* editor = dynamic_cast<juce::TextEditor*>(find(view, "Seconds"));
     ASSERT_NE(editor, nullptr);
@@ -148,8 +148,6 @@ TEST(QuestionCard, APictureStandsBesideTheWordsAndFollowsWhatIsTyped) {
 }
 
 // Where recordings and documents go, in homes with and without documents.
-
-using namespace test;
 
 /// Another home folder for the test.
 class Home {

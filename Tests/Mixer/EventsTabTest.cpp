@@ -103,7 +103,7 @@ TEST_F(EventsTabTest, WhatIsDraggedOutIsTheChosenHitsAloneSampleBySample) {
     const auto files = drag();
     ASSERT_EQ(files.size(), 1U);
     EXPECT_TRUE(files[0].hasFileExtension(".wav"));
-    const auto sound = readRecording(files[0].getFullPathName().toStdString());
+    const auto sound = readRecording(pathOf(files[0]));
     ASSERT_TRUE(sound) << sound.error;
     EXPECT_EQ(sound.value.sampleRateHz, 48000);
     EXPECT_EQ(sound.value.channels.size(), 4U);
@@ -118,7 +118,7 @@ TEST_F(EventsTabTest, AClipHasTheSameWithChannelsAndPlaces) {
     chooseFormat(".hjif");
     const auto files = drag();
     ASSERT_EQ(files.size(), 1U);
-    const auto path = files[0].getFullPathName().toStdString();
+    const auto path = pathOf(files[0]);
     const auto clip = loadClip(path, *clipFormatOf(path));
     ASSERT_TRUE(clip) << clip.error;
     ASSERT_EQ(clip.value.channels.size(), 4U);
@@ -163,7 +163,7 @@ TEST_F(EventsTabTest, IsSavedInEveryFormatOrRefusedInALine) {
             if (ending == ".envelope") // which is for phones alone
                 EXPECT_TRUE(file.loadFileAsString().contains("\"effects\"")) << file.getFileName();
             else
-                EXPECT_TRUE(readRecording(file.getFullPathName().toStdString())) << file.getFileName();
+                EXPECT_TRUE(readRecording(pathOf(file))) << file.getFileName();
     }
     EXPECT_TRUE(folder("one-A.haptic").existsAsFile()) << "one channel each";
     tab().saveTo(folder("one.haptic"));
@@ -199,7 +199,7 @@ TEST_F(EventsTabTest, NothingChosenAndOtherDragsLeaveNoFiles) {
     bool mayBeMoved = false;
     EXPECT_FALSE(
         view.shouldDropFilesWhenDraggedExternally({WorldView::newEnchanter, &list, {}}, files, mayBeMoved));
-    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
+    EXPECT_EQ(model.trouble(), "");
 }
 
 TEST(DraggedFiles, AreThereUntilTheMixerEnds) {

@@ -8,7 +8,6 @@ namespace physvib {
 namespace {
 
 using namespace test;
-using juce::KeyPress;
 
 struct LanesByHand : testing::Test, MixerInView {
     LaneRow* row = nullptr;
@@ -25,8 +24,7 @@ struct LanesByHand : testing::Test, MixerInView {
     void press(juce::Point<float> place) { row->mouseDown(mouseAt(*row, place)); }
     void setLane(const GainLane& lane) {
         model.change("Lane", [&](Mix& mix) { mix.strips[1].lane = lane; });
-        model.dispatchPendingMessages();
-        view.refresh();
+        show();
     }
     void nudge(int key, int times) {
         for (int i = 0; i < times; ++i) row->keyPressed(KeyPress{key, juce::ModifierKeys::shiftModifier, 0});

@@ -18,7 +18,7 @@ using namespace test;
 constexpr int wood = 4; // of shake-the-box; others come before it and are silent there
 
 void write(const juce::File& file, const std::vector<float>& samples) {
-    WavSink sink{file.getFullPathName().toStdString(), 1, 48000};
+    WavSink sink{pathOf(file), 1, 48000};
     const float* channels[]{samples.data()};
     sink.write(channels, static_cast<int>(samples.size()));
     ASSERT_EQ(sink.finish(), "");
@@ -133,21 +133,19 @@ TEST_F(Materials, SurfacesAreMadeRoughAndTakenBack) {
               "material: expected one of the 6 materials of the scene");
 }
 
-TEST_F(Materials, ASurfaceThatIsTurnedIsOneThingToUndo) {
-    for (int k = 1; k <= 20; ++k)
-        EXPECT_EQ(model.world().edit("Grain", TextureAction{wood, 0.001 * k}, k > 1), "");
+TEST_F(Materials, WhatIsTurnedAndHeldIsOneThingToUndo) {
+    const auto turn = [&](const char* name, auto actionOf) {
+        for (int k = 1; k <= 20; ++k) EXPECT_EQ(model.world().edit(name, actionOf(k), k > 1), "");
+    };
+    turn("Grain", [](int k) { return TextureAction{wood, 0.001 * k}; });
     EXPECT_EQ(now().grainMetres, 0.02);
     model.undoManager().undo();
     EXPECT_EQ(now().grainMetres, 0.0);
     EXPECT_FALSE(model.undoManager().canUndo());
-}
-
-TEST_F(Materials, ASliderThatIsHeldIsOneThingToUndo) {
-    for (int k = 1; k <= 20; ++k)
-        EXPECT_EQ(model.world().edit("Frequency", SoundAction{wood, 100.0 + k, 50.0}, k > 1), "");
+    turn("Frequency", [](int k) { return SoundAction{wood, 100.0 + k, 50.0}; });
     EXPECT_EQ(now().frequencyHz, 120.0);
     model.undoManager().undo();
-    EXPECT_EQ(inputs().size(), 21u) << "one more, not the twenty in turn";
+    EXPECT_EQ(inputs().size(), 42u) << "one more each, not the twenty in turn";
     EXPECT_EQ(now().frequencyHz, 349.0);
     EXPECT_FALSE(model.undoManager().canUndo());
     model.undoManager().redo();
@@ -174,7 +172,7 @@ TEST_F(Materials, ARecordingThatIsDroppedGivesBothNumbers) {
     EXPECT_TRUE(tab.isMeasuring());
     EXPECT_EQ(now().frequencyHz, 349.0) << "measured beside the message thread";
     ASSERT_TRUE(runUntil([&] { return !tab.isMeasuring(); }));
-    EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
+    EXPECT_EQ(model.trouble(), "");
     EXPECT_NEAR(now().frequencyHz, 352.0, 0.5);
     EXPECT_NEAR(now().decayPerSecond, 98.0, 2.0);
     const auto* recording = tab.recordingOf(wood);
@@ -204,15 +202,15 @@ TEST_F(Materials, ARecordingThatIsDroppedOnARowIsOfThatMaterial) {
 
 TEST_F(Materials, FlacAndOggAreReadAsWell) {
     ASSERT_TRUE(writeKnock(folder("knock.wav")));
-    const auto knock = readRecording(folder("knock.wav").getFullPathName().toStdString());
+    const auto knock = readRecording(pathOf(folder("knock.wav")));
     ASSERT_EQ(knock.error, "");
     for (const auto& [ending, format] : {std::pair{"flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_16},
                                          std::pair{"ogg", SF_FORMAT_OGG | SF_FORMAT_VORBIS}}) {
         const auto file = folder("knock").withFileExtension(ending);
-        ASSERT_TRUE(test::writeSound(file.getFullPathName().toStdString(), format, knock.value)) << ending;
+        ASSERT_TRUE(test::writeSound(pathOf(file), format, knock.value)) << ending;
         tab.measure(file);
         tab.finishMeasuring();
-        EXPECT_TRUE(model.trouble().isEmpty()) << model.trouble();
+        EXPECT_EQ(model.trouble(), "");
         ASSERT_NE(tab.recordingOf(wood), nullptr) << ending;
         EXPECT_EQ(tab.recordingOf(wood)->name, file.getFileName().toStdString());
         EXPECT_NEAR(now().frequencyHz, 352.0, 1.0) << ending;

@@ -111,9 +111,8 @@ TEST_F(MixerClipsTest, RefusalsAreOneLine) {
 TEST_F(MixerClipsTest, ASavedSessionHasThem) {
     drop(field, knocks, field.placeOfShare({0.5, 0.5}));
     felt();
-    folder("session.json")
-        .replaceWithText(sessionJson(model.saved(), folder.folder.getFullPathName().toStdString()));
-    const auto read = loadSession(folder("session.json").getFullPathName().toStdString());
+    folder("session.json").replaceWithText(sessionJson(model.saved(), pathOf(folder.folder)));
+    const auto read = loadSession(pathOf(folder("session.json")));
     ASSERT_EQ(read.error, "");
     EXPECT_EQ(read.value.log.strikes.size(), 1u);
     const auto again = loadRecordings(read.value.log);

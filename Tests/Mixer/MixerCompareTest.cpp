@@ -29,7 +29,7 @@ struct Compared : testing::Test {
             }
     }
     void key() {
-        view.keyPressed(juce::KeyPress{'A', {}, 'a'});
+        view.keyPressed(KeyPress{'A', {}, 'a'});
         model.dispatchPendingMessages();
     }
     double db() const { return 10.0 * std::log10(energyOf(model.mix(), events)); }
@@ -97,13 +97,11 @@ TEST_F(Compared, TheWorldStaysAndUndoEndsTheComparison) {
 // new strips get no output of ears or meters; and a dose that was felt stays what it was when the layout's
 // full scales change.
 
-using namespace test;
-
 TEST(MatchedLevels, BothSidesHaveTheirOwnAgainWhenTheyAreAlike) {
     MixerModel desk{onlyNoDevice(), noDevice, MixerModel::firstMix(), {.isPaused = true}};
     MixerView view{desk};
     const auto key = [&] {
-        view.keyPressed(juce::KeyPress{'A', {}, 'a'});
+        view.keyPressed(KeyPress{'A', {}, 'a'});
         desk.dispatchPendingMessages();
     };
     const auto gains = [&](double db) {

@@ -47,21 +47,15 @@ struct OscInTab : OscOfMixer {
     }
 };
 
-TEST_F(OscInTab, ListensToNobodyUnlessTold) {
+TEST_F(OscInTab, ListensToNobodyUntilItIsSwitchedThere) {
+    auto& box = the<juce::ComboBox>(tab, "OSC");
     EXPECT_EQ(model.inputs().choice().use, OscUse::off);
     EXPECT_FALSE(model.inputs().status().has_value());
     EXPECT_EQ(messages().value, "none");
-    EXPECT_EQ(model.inputs().use({OscUse::thisComputer}), "");
-    EXPECT_TRUE(model.inputs().status()->address.starts_with("127.0.0.1:"));
-    EXPECT_EQ(model.inputs().use({OscUse::off}), "");
-    EXPECT_FALSE(model.inputs().status().has_value());
-}
-
-TEST_F(OscInTab, IsSwitchedInTheOutputTab) {
-    auto& box = the<juce::ComboBox>(tab, "OSC");
     EXPECT_EQ(box.getText(), "nobody");
     box.setSelectedItemIndex(1, juce::sendNotificationSync);
     EXPECT_EQ(model.inputs().choice().use, OscUse::thisComputer);
+    EXPECT_TRUE(model.inputs().status()->address.starts_with("127.0.0.1:"));
     send("/physvib/strike", {{"frequency_hz", 200.0}, {"decay_per_s", 30.0}});
     send("/physvib/strike", {{"level", 2.0}});
     ASSERT_TRUE(runUntil([&] { return counts().messages == 2; }));
@@ -72,6 +66,7 @@ TEST_F(OscInTab, IsSwitchedInTheOutputTab) {
     EXPECT_EQ(told.shade, Shade::now);
     box.setSelectedItemIndex(0, juce::sendNotificationSync);
     EXPECT_EQ(model.inputs().choice().use, OscUse::off);
+    EXPECT_FALSE(model.inputs().status().has_value());
 }
 
 TEST_F(OscOfMixer, APhonesAddressIsShownAsTextAndAsACode) {
@@ -81,7 +76,7 @@ TEST_F(OscOfMixer, APhonesAddressIsShownAsTextAndAsACode) {
     ASSERT_NE(view.question(), nullptr) << model.trouble();
     EXPECT_TRUE(view.question()->words().contains(":9")) << view.question()->words();
     EXPECT_TRUE(view.question()->picture().isValid());
-    view.keyPressed(juce::KeyPress{juce::KeyPress::escapeKey});
+    view.keyPressed(KeyPress{KeyPress::escapeKey});
     EXPECT_TRUE(runUntil([&] { return view.question() == nullptr; }, 1.0));
 }
 

@@ -11,6 +11,8 @@
 
 namespace physvib::test {
 
+using juce::KeyPress;
+
 /// As in a program of its own, JUCE bears errors of X: a display without a window manager lacks properties.
 inline const bool isProgram = (
     juce::JUCEApplicationBase::createInstance =

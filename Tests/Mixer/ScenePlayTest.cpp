@@ -9,7 +9,6 @@ namespace physvib {
 namespace {
 
 using namespace test;
-using juce::KeyPress;
 
 struct Played {
     MixerModel model{onlyNoDevice(), noDevice};

@@ -96,7 +96,7 @@ TEST_F(ListedTakes, ATakeIsCopiedAndDeletedWithItsEvents) {
 }
 
 SampledSound soundOf(const juce::File& file) {
-    auto sound = readRecording(file.getFullPathName().toStdString());
+    auto sound = readRecording(pathOf(file));
     EXPECT_TRUE(sound) << sound.error;
     return std::move(sound.value);
 }
@@ -150,7 +150,7 @@ TEST_F(TrimmedTake, ATrimLastsBeyondTheProgramAndIsOfThatTakeAlone) {
     EXPECT_EQ(shownAnew(), "hands-take, 1.5 s");
     EXPECT_FALSE(kept.existsAsFile()) << "nothing is left of a trim that was taken back";
     auto& trimmer = the(view, "Start and end of the take");
-    trimmer.keyPressed(juce::KeyPress{juce::KeyPress::leftKey, juce::ModifierKeys::shiftModifier, 0});
+    trimmer.keyPressed(KeyPress{KeyPress::leftKey, juce::ModifierKeys::shiftModifier, 0});
     EXPECT_EQ(keptPart(folder("hands-take.wav"), 1.5), (juce::Range{0.0, 1.49}));
     EXPECT_EQ(keptPart(folder("hands-take.wav"), 1.6), (juce::Range{0.0, 1.6})) << "another of its name";
     for (const char* broken : {"", "{", "[1]", R"({"from_s": 1, "to_s": 0.5, "of_s": 1.5})",
@@ -172,7 +172,7 @@ TEST_F(TrimmedTake, ATrimmedTakeIsExportedWithTheEventsInIt) {
     EXPECT_EQ(sound.channels[1][12000], 0.5f);
     EXPECT_LT(sound.channels[1].front(), 0.01f) << "no click";
     EXPECT_LT(sound.channels[1].back(), 0.01f);
-    const auto events = loadEventsCsv(folder("part.csv").getFullPathName().toStdString());
+    const auto events = loadEventsCsv(pathOf(folder("part.csv")));
     ASSERT_TRUE(events) << events.error;
     ASSERT_EQ(events.value.events.size(), 1U);
     EXPECT_NEAR(1e-6 * static_cast<double>(events.value.events[0].timeNs), 200.0, 5.0);
@@ -186,8 +186,8 @@ TEST_F(TrimmedTake, ATrimmedTakePlaysThatPartFromAFileThatStays) {
     trimmer.mouseDown(mouseAt(trimmer, {290.0f, 5.0f}));
     trimmer.mouseDrag(mouseAt(trimmer, {200.0f, 5.0f}));
     EXPECT_EQ(shown(), "hands-take, 1.0 s of 1.5 s");
-    trimmer.keyPressed(juce::KeyPress{juce::KeyPress::rightKey});
-    trimmer.keyPressed(juce::KeyPress{juce::KeyPress::leftKey, juce::ModifierKeys::shiftModifier, 0});
+    trimmer.keyPressed(KeyPress{KeyPress::rightKey});
+    trimmer.keyPressed(KeyPress{KeyPress::leftKey, juce::ModifierKeys::shiftModifier, 0});
     takes->play();
     const auto parts = folder("parts").findChildFiles(juce::File::findFiles, false, "*.wav");
     ASSERT_EQ(parts.size(), 1);
