@@ -21,18 +21,19 @@ using namespace test;
 
 class Recordings : public FolderTest {
 protected:
-    std::string writeHit(const std::string& name, std::uint32_t seed, float level) const {
-        auto samples = std::vector<float>(2400);
-        for (const float x : loadContact({300.0, "synthetic-" + std::to_string(seed), 30.0}).value.samples)
-            samples.push_back(level * x);
-        const float* at = samples.data();
+    /// After 50 ms of silence, as much of `samples`.
+    std::string write(const std::string& name, const std::vector<float>& sound, float level) const {
+        std::vector<float> samples(2400);
+        for (const float x : sound) samples.push_back(level * x);
+        const float* const at = samples.data();
         WavSink sink{(folder / name).string(), 1, 48000};
-        for (std::size_t done = 0; done < samples.size(); done += 4800) {
-            sink.write(&at, static_cast<int>(std::min<std::size_t>(4800, samples.size() - done)));
-            at += 4800;
-        }
+        sink.write(&at, static_cast<int>(samples.size()));
         EXPECT_EQ(sink.finish(), "");
         return (folder / name).string();
+    }
+    std::string writeHit(const std::string& name, std::uint32_t seed, float level) const {
+        return write(name, loadContact({300.0, "synthetic-" + std::to_string(seed), 30.0}).value.samples,
+                     level);
     }
 };
 
@@ -62,15 +63,11 @@ TEST_F(Recordings, AreAsHighAsTheModeOrAsStrong) {
 TEST_F(Recordings, OfAContactWhatLiesBelow5HzIsTakenAwayAndTold) {
     const auto plain = loadContact({349.0, writeHit("hit.wav", 3, 0.2f), 30.0});
     EXPECT_EQ(plain.value.note, "");
-    const std::string path = (folder / "leaning.wav").string();
-    std::vector<float> samples(2400);
+    std::vector<float> samples;
     // an accelerometer that the hit has turned
     for (int n = 0; n < 24000; ++n)
         samples.push_back(static_cast<float>(0.3 * std::sin(0.04 * n) * std::exp(-n / 4000.0) - 0.1));
-    const float* at = samples.data();
-    WavSink sink{path, 1, 48000};
-    sink.write(&at, static_cast<int>(samples.size()));
-    ASSERT_EQ(sink.finish(), "");
+    const std::string path = write("leaning.wav", samples, 1.0f);
     const auto contact = loadContact({300.0, path, 30.0});
     ASSERT_EQ(contact.error, "");
     EXPECT_EQ(contact.value.note.find(path + ": what lies below 5 Hz is not played: a mean of 0."), 0u)

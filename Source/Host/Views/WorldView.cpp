@@ -33,8 +33,7 @@ bool isSame(const std::vector<BodyPose>& a, const std::vector<BodyPose>& b) {
     });
 }
 
-} // namespace
-
+/// Gain of an actuator at each place of the field, as opacity of the colour.
 juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour colour, int width,
                       int height) {
     juce::Image image{juce::Image::ARGB, std::max(1, width), std::max(1, height), true};
@@ -50,6 +49,8 @@ juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour c
         }
     return image;
 }
+
+} // namespace
 
 WorldView::WorldView() {
     setOpaque(true);

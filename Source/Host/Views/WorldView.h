@@ -245,9 +245,6 @@ private:
     std::optional<FieldShare> spot_;
 };
 
-/// Gain of `enchanter` at each place of the field, as opacity of `colour`. M.
-juce::Image gainImage(const PhantomPanner& panner, int enchanter, juce::Colour colour, int width, int height);
-
 // Physical size of the display, to convert mouse movements from pixels to metres.
 
 constexpr double minDisplayMetres = 0.03, maxDisplayMetres = 30.0; // a watch, a wall

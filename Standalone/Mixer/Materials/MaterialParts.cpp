@@ -82,6 +82,14 @@ double numberOf(const juce::String& words) {
     return words.retainCharacters("0123456789.,").replaceCharacter(',', '.').getDoubleValue();
 }
 
+/// Quality of a measurement: "residual -31 dB, confidence high".
+juce::String confidenceText(const ContactSound& sound) {
+    const auto residual = sound.residualShare > 1e-12
+                              ? number(10.0 * std::log10(sound.residualShare), 0) + " dB"
+                              : juce::String{"none"};
+    return "residual " + residual + ", confidence " + (sound.isConfident() ? "high" : "low");
+}
+
 /// Parses millimetres, or metres if the text says so.
 double grainOf(const juce::String& words) {
     const auto text = words.trim();
@@ -89,13 +97,6 @@ double grainOf(const juce::String& words) {
 }
 
 } // namespace
-
-juce::String confidenceText(const ContactSound& sound) {
-    const auto residual = sound.residualShare > 1e-12
-                              ? number(10.0 * std::log10(sound.residualShare), 0) + " dB"
-                              : juce::String{"none"};
-    return "residual " + residual + ", confidence " + (sound.isConfident() ? "high" : "low");
-}
 
 void SpectrumPlot::show(const ShownHit& hit, const HitCourse& course) {
     hit_ = hit;

@@ -14,6 +14,24 @@ constexpr double arrowRatio = 1.01;
 
 constexpr double decibelsOfDecay = 60.0;
 
+/// Columns in a row of the list of materials, and formatting of its numbers.
+struct MaterialColumns {
+    juce::Rectangle<int> dot, name, frequency, decay, length, sign;
+    explicit MaterialColumns(juce::Rectangle<int> row) {
+        row.reduce(10, 0);
+        dot = row.removeFromLeft(22);
+        sign = row.removeFromRight(40);
+        const int number = std::min(92, row.getWidth() * 22 / 100);
+        length = row.removeFromRight(number);
+        decay = row.removeFromRight(number);
+        frequency = row.removeFromRight(number);
+        name = row;
+    }
+};
+
+juce::String frequencyText(double hz) { return number(hz, 1); }
+juce::String decayText(double perSecond) { return number(perSecond, 2); }
+
 } // namespace
 
 /// Measures one recording on its own thread.
@@ -66,7 +84,11 @@ MaterialsTab::MaterialsTab(MixerModel& model, WorldView& world)
     onSlide(frequency_, [this](bool continuesEdit) { setSound(true, continuesEdit); });
     onSlide(decay_, [this](bool continuesEdit) { setSound(false, continuesEdit); });
     texture_.onChange = [this](const Texture& texture, const juce::String& what, bool continuesEdit) {
-        setTexture(texture, what, continuesEdit);
+        const auto* material = chosen();
+        if (material == nullptr) return;
+        const TextureAction surface{chosenIndex(), texture.grainMetres, texture.roughness, texture.pattern,
+                                    texture.rolling};
+        model_.reportFault(model_.world().edit(what + " of " + utf8(material->name), surface, continuesEdit));
     };
     for (auto* slider : {&spotX_, &spotY_}) {
         slider->setColour(juce::Slider::textBoxOutlineColourId, juce::Colours::transparentBlack);
@@ -185,14 +207,6 @@ void MaterialsTab::setSound(bool isFrequency, bool continuesEdit) {
         isFrequency ? frequency_.getValue() : decay_.getValue();
     const auto name = (isFrequency ? "Frequency of " : "Decay of ") + utf8(material->name);
     model_.reportFault(model_.world().edit(name, sound, continuesEdit));
-}
-
-void MaterialsTab::setTexture(const Texture& texture, const juce::String& what, bool continuesEdit) {
-    const auto* material = chosen();
-    if (material == nullptr) return;
-    const TextureAction surface{chosenIndex(), texture.grainMetres, texture.roughness, texture.pattern,
-                                texture.rolling};
-    model_.reportFault(model_.world().edit(what + " of " + utf8(material->name), surface, continuesEdit));
 }
 
 void MaterialsTab::typeFrequency() {

@@ -64,9 +64,6 @@ private:
     HitCourse course_;
 };
 
-/// Quality of a measurement: "residual -31 dB, confidence high".
-juce::String confidenceText(const ContactSound& sound);
-
 /// Controls for the surface grains of a material: distance, strength, pattern, and share when rolling.
 /// Message thread.
 class TextureRow final : public juce::Component {
@@ -116,24 +113,6 @@ inline juce::NormalisableRange<double> feltRangeWithZero(double least, double lo
     return {0.0, most, [=](double, double, double s) { return s <= 0.0 ? 0.0 : felt.convertFrom0to1(s); },
             [=](double, double, double v) { return v < least ? 0.0 : felt.convertTo0to1(v); }};
 }
-
-/// Columns in a row of the list of materials, and formatting of its numbers.
-struct MaterialColumns {
-    juce::Rectangle<int> dot, name, frequency, decay, length, sign;
-    explicit MaterialColumns(juce::Rectangle<int> row) {
-        row.reduce(10, 0);
-        dot = row.removeFromLeft(22);
-        sign = row.removeFromRight(40);
-        const int number = std::min(92, row.getWidth() * 22 / 100);
-        length = row.removeFromRight(number);
-        decay = row.removeFromRight(number);
-        frequency = row.removeFromRight(number);
-        name = row;
-    }
-};
-
-inline juce::String frequencyText(double hz) { return number(hz, 1); }
-inline juce::String decayText(double perSecond) { return number(perSecond, 2); }
 
 class MaterialsTab final : public Tab,
                            public juce::FileDragAndDropTarget,
@@ -199,7 +178,6 @@ private:
     void prepareSlider(RatioSlider& slider, const juce::String& title, double least, double low, double high,
                        double most);
     void setSound(bool isFrequency, bool continuesEdit);
-    void setTexture(const Texture& texture, const juce::String& what, bool continuesEdit);
     void setDropping(bool isDropping);
     void typeFrequency();
     void showChosen();
