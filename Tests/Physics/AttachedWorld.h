@@ -24,21 +24,34 @@ inline double momentumOf(const b2Fixture& fixture) {
     return massKg(fixture) * static_cast<double>(fixture.GetBody()->GetLinearVelocity().Length());
 }
 
+inline b2CircleShape discOf(float radius) {
+    b2CircleShape disc;
+    disc.m_radius = radius;
+    return disc;
+}
+
+/// A shape on a body of its own, of so many kg/m^2.
+inline b2Fixture& addTo(b2World& world, const b2Shape& shape, b2Vec2 at, b2Vec2 velocity = {0.0F, 0.0F},
+                        float density = 10.0F) {
+    b2BodyDef def;
+    def.type = b2_dynamicBody;
+    def.position = at;
+    def.linearVelocity = velocity;
+    return *world.CreateBody(&def)->CreateFixture(&shape, density);
+}
+/// The same of one that stands.
+inline b2Fixture& addStill(b2World& world, const b2Shape& shape) {
+    const b2BodyDef def;
+    return *world.CreateBody(&def)->CreateFixture(&shape, 0.0F);
+}
+
 /// No gravity, 100 steps/s.
 class AttachedWorld : public testing::Test {
 protected:
     b2Fixture& ball(float x, float y, float vx, float vy, float restitution = 0.5F) {
-        b2BodyDef def;
-        def.type = b2_dynamicBody;
-        def.position = {x, y};
-        def.linearVelocity = {vx, vy};
-        b2CircleShape circle;
-        circle.m_radius = 0.25F;
-        b2FixtureDef fixture;
-        fixture.shape = &circle;
-        fixture.density = 10.0F;
-        fixture.restitution = restitution;
-        return *world.CreateBody(&def)->CreateFixture(&fixture);
+        b2Fixture& fixture = addTo(world, discOf(0.25F), {x, y}, {vx, vy});
+        fixture.SetRestitution(restitution);
+        return fixture;
     }
 
     /// The fixture, with these values.
@@ -63,11 +76,10 @@ protected:
     }
 
     b2Fixture& edge(b2Vec2 from, b2Vec2 to) {
-        const b2BodyDef def;
         b2EdgeShape shape;
         shape.SetTwoSided(from, to);
         shape.m_radius = 0.0F; // exact geometry
-        return *world.CreateBody(&def)->CreateFixture(&shape, 0.0F);
+        return addStill(world, shape);
     }
     b2Fixture& floor() { return edge({-100.0F, 0.0F}, {100.0F, 0.0F}); }
 

@@ -14,14 +14,10 @@ protected:
         world.SetGravity({0.0F, -10.0F});
         world.SetAllowSleeping(false);
     }
-    b2Fixture& block(b2Vec2 centre, b2Vec2 half, float angle = 0.0F, float density = 10.0F) {
-        b2BodyDef def;
-        def.type = b2_dynamicBody;
-        def.position = centre;
-        def.angle = angle;
+    b2Fixture& block(b2Vec2 centre, b2Vec2 half, float density = 10.0F) {
         b2PolygonShape shape;
         shape.SetAsBox(half.x, half.y);
-        b2Fixture& fixture = *world.CreateBody(&def)->CreateFixture(&shape, density);
+        b2Fixture& fixture = addTo(world, shape, centre, {0.0F, 0.0F}, density);
         fixture.SetFriction(0.9F);
         return fixture;
     }
@@ -144,8 +140,7 @@ protected:
         for (int i = 0; i <= 100; ++i) points.push_back({50.0F - static_cast<float>(i), 0.0F});
         b2ChainShape shape;
         shape.CreateChain(points.data(), static_cast<int>(points.size()), {51.0F, 0.0F}, {-51.0F, 0.0F});
-        const b2BodyDef def;
-        return *world.CreateBody(&def)->CreateFixture(&shape, 0.0F);
+        return addStill(world, shape);
     }
 };
 
@@ -201,7 +196,7 @@ TEST_P(CollisionsBesideAMachine, SmallStrikeDoesNotHandOnItsHumming) {
     settings.timing = GetParam();
     attachment.configure(settings);
     give(floor(), camera);
-    b2Fixture& machine = give(block({50.0F, 0.5F}, {0.5F, 0.5F}, 0.0F, 600.0F), object);
+    b2Fixture& machine = give(block({50.0F, 0.5F}, {0.5F, 0.5F}, 600.0F), object);
     // lie, and carry the pebbles
     for (const float x : {0.0F, 3.0F}) give(ball(x, 0.25F, 0.0F, 0.0F, 0.0F), object);
     run(50);

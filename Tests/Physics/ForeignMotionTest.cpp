@@ -15,12 +15,10 @@ public:
     explicit RandomWorld(unsigned seed)
         : random_(seed) {
         world.SetSubStepping(choose(4) == 0);
-        const b2BodyDef def;
-        b2Body* const ground = world.CreateBody(&def);
         const b2Vec2 corners[] = {{0.0F, 0.0F}, {8.0F, 0.0F}, {8.0F, 6.0F}, {0.0F, 6.0F}};
         b2ChainShape chain;
         chain.CreateLoop(corners, 4);
-        ground->CreateFixture(&chain, 0.0F);
+        addStill(world, chain);
         for (int i = 0; i < 12; ++i) add();
         b2DistanceJointDef joint;
         joint.Initialize(bodies_[0], bodies_[1], bodies_[0]->GetPosition(), bodies_[1]->GetPosition());
@@ -155,14 +153,8 @@ TEST_P(RandomClusters, HandOnNoMoreThanWhatStruck) {
         Attachment attachment(world, settings);
         std::vector<const b2Fixture*> fixtures; // by id
         const auto add = [&](float x, float y, float vx) {
-            b2BodyDef def;
-            def.type = b2_dynamicBody;
-            def.position = {x, y};
-            def.linearVelocity = {vx, 0.0F};
-            b2CircleShape circle;
-            circle.m_radius = 0.25F;
             b2Fixture& fixture =
-                *world.CreateBody(&def)->CreateFixture(&circle, 1.0F + static_cast<float>(random() % 20));
+                addTo(world, discOf(0.25F), {x, y}, {vx, 0.0F}, 1.0F + static_cast<float>(random() % 20));
             fixture.SetRestitution(0.1F * static_cast<float>(random() % 10));
             const auto id = static_cast<std::size_t>(attachment.set(fixture, camera).id);
             EXPECT_EQ(id, fixtures.size());

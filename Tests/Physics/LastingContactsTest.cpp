@@ -226,9 +226,7 @@ TEST_F(Lasting, SeamsOfAChainAreNotHeard) {
     for (int i = -2; i < 60; ++i) links.push_back({-0.1F * static_cast<float>(i), 0.0F});
     b2ChainShape shape;
     shape.CreateChain(links.data(), static_cast<int>(links.size()), {0.3F, 0.0F}, {-6.1F, 0.0F});
-    const b2BodyDef def;
-    b2Fixture& chain =
-        give(*world.CreateBody(&def)->CreateFixture(&shape, 0.0F), rough(0.005, GrainPattern::regular));
+    b2Fixture& chain = give(addStill(world, shape), rough(0.005, GrainPattern::regular));
     b2Fixture& ball = this->ball(0.0F, 0.25F + b2_polygonRadius, -1.0F, 0.0F, 0.0F);
     ball.SetFriction(0.0F);
     const std::vector<CollisionEvent> events = lasting(500);
@@ -322,10 +320,9 @@ class Yard {
 public:
     explicit Yard(std::uint32_t seed)
         : random_{seed} {
-        const b2BodyDef def;
         b2EdgeShape floor;
         floor.SetTwoSided({-20.0F, 0.0F}, {20.0F, 0.0F});
-        give(*world_.CreateBody(&def)->CreateFixture(&floor, 0.0F), true);
+        give(addStill(world_, floor), true);
         for (int i = 0; i < 6; ++i) addBody(static_cast<float>(i));
     }
     /// Events of both attachments after so many steps.
@@ -352,17 +349,13 @@ private:
         ASSERT_TRUE(listed_.set(fixture, values));
     }
     void addBody(float x) {
-        b2BodyDef def;
-        def.type = b2_dynamicBody;
-        def.position = {1.2F * x - 3.0F, 0.3F};
-        def.linearVelocity = {3.0F * drawn() - 1.5F, 0.0F};
-        b2CircleShape circle;
-        circle.m_radius = 0.25F;
+        const float speed = 3.0F * drawn() - 1.5F;
+        const b2CircleShape disc = discOf(0.25F);
         b2PolygonShape box;
         box.SetAsBox(0.3F, 0.2F);
         const bool isDisc = random_() % 2 == 0;
-        b2Fixture& fixture =
-            *world_.CreateBody(&def)->CreateFixture(isDisc ? static_cast<b2Shape*>(&circle) : &box, 10.0F);
+        b2Fixture& fixture = addTo(world_, isDisc ? static_cast<const b2Shape&>(disc) : box,
+                                   {1.2F * x - 3.0F, 0.3F}, {speed, 0.0F});
         fixture.SetFriction(drawn());
         give(fixture, random_() % 2 == 0);
     }

@@ -26,16 +26,11 @@ struct Dropped {
 Dropped drop(ImpactTiming timing, float height, float stepSeconds) {
     b2World world({0.0F, -9.8F});
     Attachment attachment(world, settingsOf(timing));
-    b2BodyDef def;
     b2EdgeShape edge;
     edge.SetTwoSided({-1.0F, 0.0F}, {1.0F, 0.0F});
     edge.m_radius = 0.0F;
-    (void)attachment.set(*world.CreateBody(&def)->CreateFixture(&edge, 0.0F), camera);
-    def.type = b2_dynamicBody;
-    def.position = {0.0F, height + 0.15F};
-    b2CircleShape circle;
-    circle.m_radius = 0.15F;
-    b2Fixture& ball = *world.CreateBody(&def)->CreateFixture(&circle, 120.0F);
+    (void)attachment.set(addStill(world, edge), camera);
+    b2Fixture& ball = addTo(world, discOf(0.15F), {0.0F, height + 0.15F}, {0.0F, 0.0F}, 120.0F);
     ball.SetRestitution(0.688F);
     (void)attachment.set(ball, object);
     std::vector<CollisionEvent> events;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What settledNs() promises is kept, whatever is removed and whenever: events come in time order, and none
 // before the time that was reported as settled.
+#include "AttachedWorld.h"
 #include "Contacts/ContactFeed.h"
-#include "Physics/Attachment.h"
 #include <algorithm>
 #include <deque>
 #include <functional>
@@ -47,11 +47,10 @@ public:
         settings.timing = seed % 3 == 0 ? ImpactTiming::release : ImpactTiming::onset;
         settings.keepsHitsOfDestroyed = seed % 4 != 3;
         attachment_.configure(settings);
-        const b2BodyDef still;
         const b2Vec2 corners[] = {{0.0F, 0.0F}, {0.0F, 3.0F}, {4.0F, 3.0F}, {4.0F, 0.0F}};
         b2ChainShape walls;
         walls.CreateLoop(corners, 4);
-        (void)attachment_.set(*world_.CreateBody(&still)->CreateFixture(&walls, 0.0F), values());
+        (void)attachment_.set(addStill(world_, walls), values());
         for (int i = 0; i < 40; ++i) add();
     }
 
@@ -105,15 +104,10 @@ private:
         const float x = 0.3F + 0.3F * static_cast<float>(choose(9)),
                     y = 0.3F + 0.3F * static_cast<float>(choose(8));
         for (int i = 0; i < 3; ++i) {
-            b2BodyDef def;
-            def.type = b2_dynamicBody;
-            def.position = {x + 0.2F * static_cast<float>(i), y};
-            def.linearVelocity = {static_cast<float>(choose(13) - 6), 0.0F};
-            def.bullet = choose(3) == 0;
-            b2Body* const body = world_.CreateBody(&def);
-            b2CircleShape ball;
-            ball.m_radius = 0.1F;
-            b2Fixture& fixture = *body->CreateFixture(&ball, 10.0F);
+            b2Fixture& fixture = addTo(world_, discOf(0.1F), {x + 0.2F * static_cast<float>(i), y},
+                                       {static_cast<float>(choose(13) - 6), 0.0F});
+            b2Body* const body = fixture.GetBody();
+            body->SetBullet(choose(3) == 0);
             fixture.SetRestitution(0.1F * static_cast<float>(choose(8)));
             (void)attachment_.set(fixture, values());
             b2DistanceJointDef joint;
@@ -191,13 +185,11 @@ public:
         ImpactSettings settings;
         settings.timing = timing;
         attachment_.configure(settings);
-        const b2BodyDef ground;
         // clockwise: they stay inside
         const b2Vec2 corners[] = {{0.0F, 0.0F}, {0.0F, 4.0F}, {4.0F, 4.0F}, {4.0F, 0.0F}};
         b2ChainShape chain;
         chain.CreateLoop(corners, 4);
-        (void)attachment_.set(*world_.CreateBody(&ground)->CreateFixture(&chain, 0.0F),
-                              {300.0, 50.0, true, 100.0, Voice::both}, next_++);
+        (void)attachment_.set(addStill(world_, chain), {300.0, 50.0, true, 100.0, Voice::both}, next_++);
         for (int i = 0; i < 20; ++i) add(0.3F + 0.17F * static_cast<float>(i), 0.5F);
     }
 
@@ -228,18 +220,12 @@ private:
         b2Body* body;
     };
     b2Body& add(float x, float y) {
-        b2BodyDef def;
-        def.type = b2_dynamicBody;
-        def.position = {x, y};
-        def.bullet = next_ % 3 == 0;
-        b2CircleShape circle;
-        circle.m_radius = 0.15F;
-        b2Body& body = *world_.CreateBody(&def);
-        b2Fixture& fixture = *body.CreateFixture(&circle, 10.0F);
+        b2Fixture& fixture = addTo(world_, discOf(0.15F), {x, y});
+        fixture.GetBody()->SetBullet(next_ % 3 == 0);
         fixture.SetRestitution(0.4F);
         (void)attachment_.set(fixture, {200.0, 40.0, next_ % 2 == 0, 0.0, Voice::own}, next_);
         ++next_;
-        return body;
+        return *fixture.GetBody();
     }
 
     bool destroys_;

@@ -156,18 +156,15 @@ struct Room {
             walls->CreateFixture(&edge, 0.0F)->SetRestitution(0.3F);
         }
     }
-    b2Body& add(float x, float y, b2Shape& shape, float restitution, double massKg) {
-        b2BodyDef def;
-        def.type = b2_dynamicBody;
-        def.bullet = true;
-        def.position = {x, y};
-        b2Body* const body = world.CreateBody(&def);
+    b2Body& add(float x, float y, const b2Shape& shape, float restitution, double massKg) {
         b2MassData unit;
         shape.ComputeMass(&unit, 1.0F);
-        b2Fixture* const fixture = body->CreateFixture(&shape, static_cast<float>(massKg) / unit.mass);
-        fixture->SetRestitution(restitution);
-        EXPECT_TRUE(haptics.set(*fixture, felt));
-        return *body;
+        b2Fixture& fixture =
+            addTo(world, shape, {x, y}, {0.0F, 0.0F}, static_cast<float>(massKg) / unit.mass);
+        fixture.GetBody()->SetBullet(true);
+        fixture.SetRestitution(restitution);
+        EXPECT_TRUE(haptics.set(fixture, felt));
+        return *fixture.GetBody();
     }
     template <class Act>
     double peak(double seconds, int stepsPerSecond, Act act) {
@@ -187,9 +184,7 @@ struct Room {
 
 double ball(double massKg, double full) {
     Room room{1.0F, 1.0F, -9.81F, full};
-    b2CircleShape disc;
-    disc.m_radius = 0.05F;
-    room.add(0.3F, 0.85F, disc, 0.6F, massKg);
+    room.add(0.3F, 0.85F, discOf(0.05F), 0.6F, massKg);
     return room.peak(3.0, 100, [](int) {});
 }
 
@@ -205,9 +200,7 @@ double heap(double massKg, double full) {
 
 double pinball(double massKg, double full) {
     Room room{0.5F, 1.0F, -1.2F, full};
-    b2CircleShape disc;
-    disc.m_radius = 0.0135F;
-    b2Body& thrown = room.add(0.25F, 0.5F, disc, 0.5F, massKg);
+    b2Body& thrown = room.add(0.25F, 0.5F, discOf(0.0135F), 0.5F, massKg);
     return room.peak(10.0, 240, [&thrown](int i) {
         const auto turn = static_cast<float>(i);
         if (i % 120 == 0)

@@ -190,13 +190,7 @@ protected:
         settings.timing = std::get<0>(GetParam());
         Attachment attachment{world, settings};
         const auto add = [&](float x, float y, float speed) -> b2Fixture& {
-            b2BodyDef def;
-            def.type = b2_dynamicBody;
-            def.position = {x, y};
-            def.linearVelocity = {speed, 0.0F};
-            b2CircleShape circle;
-            circle.m_radius = 0.25F;
-            return *world.CreateBody(&def)->CreateFixture(&circle, 10.0F);
+            return addTo(world, discOf(0.25F), {x, y}, {speed, 0.0F});
         };
         HapticFixture felt = camera;
         felt.voice = std::get<1>(GetParam());
