@@ -54,13 +54,11 @@ CollisionEvent strikeBy(const NoteRule& rule, const Scene& scene) {
 
 // What no rule names; frequency 0: it strikes nothing.
 CollisionEvent strikeBy(int note, const PluginState& state, const std::vector<int>& materials) {
-    NoteRule rule;
     const Vector place = placeOf(note, state.voice.places, state.layout.geometry);
-    rule.x = place.x;
-    rule.y = place.y;
-    rule.material = materials.empty()
-                        ? -1
-                        : materials[static_cast<std::size_t>(note / notesPerOctave) % materials.size()];
+    const auto octave = static_cast<std::size_t>(note / notesPerOctave);
+    const NoteRule rule{.material = materials.empty() ? -1 : materials[octave % materials.size()],
+                        .x = place.x,
+                        .y = place.y};
     CollisionEvent strike = strikeBy(rule, state.scene);
     if (state.voice.pitch == NotePitch::material) return strike;
     strike.frequencyHz = pitchHz(note);
@@ -90,10 +88,7 @@ std::vector<Action> noteActions(const NoteRule& rule, const Scene& scene) {
     if (rule.kind == NoteKind::strike) return {};
     SpawnAction spawn;
     spawn.body.name = "note " + std::to_string(rule.note);
-    FixtureDescription disc;
-    disc.shape = CircleShape{rule.radiusMetres};
-    disc.material = rule.material;
-    spawn.body.fixtures.push_back(disc);
+    spawn.body.fixtures.push_back({CircleShape{rule.radiusMetres}, {}, 0.0, rule.material});
     spawn.body.positionMetres = {rule.x * scene.fieldWidthMetres, rule.y * scene.fieldHeightMetres};
     spawn.body.velocityMetresPerSecond = rule.atFullVelocity;
     return {spawn};
@@ -104,9 +99,9 @@ std::vector<Action> noteActions(const NoteRule& rule, const Scene& scene) {
 std::vector<std::vector<Action>> actionGroups(const PluginState& state) {
     std::vector<std::vector<Action>> groups;
     for (int m = asTheScene; m < static_cast<int>(state.scene.materials.size()); ++m) {
+        // a camera needs a sound
         const bool isFelt =
             m == asTheScene || state.scene.materials[static_cast<std::size_t>(m)].frequencyHz > 0.0;
-        // a camera needs a sound
         groups.push_back(isFelt ? materialActions(state.scene, m) : std::vector<Action>{});
     }
     for (const auto& rule : state.notes) groups.push_back(noteActions(rule, state.scene));

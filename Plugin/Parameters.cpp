@@ -2,7 +2,6 @@
 // The two mappings of a parameter's values.
 #include "Parameters.h"
 #include "Core/Units.h"
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 

@@ -4,7 +4,6 @@
 #include "PluginEditor.h"
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 namespace physvib {
 

@@ -254,7 +254,6 @@ private:
     bool sendAt(ControlPace& pace, int first, int end, Hold hold) noexcept;
     void sendPaced(int first, int end) noexcept;
     void sendControls(int frame) noexcept;
-    bool sendMaterial(Session& session, int frame) noexcept;
     void stopAll(int frame) noexcept;
     void silence(int frame) noexcept;
     void playKeys(int frame) noexcept;
@@ -268,9 +267,7 @@ private:
     CollisionEvent placed(CollisionEvent strike, int channel, const NoteTouch& touch) const noexcept;
     void sustain(int first, int end) noexcept;
     void hear(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept;
-    void strikeBeat(Session& session, const BandOnset& onset, int frame) noexcept;
     void control(int channel, int controller, int value, int frame) noexcept;
-    void mix(juce::AudioBuffer<float>& buffer, int first, int frames) noexcept;
     void measure(const juce::AudioBuffer<float>& buffer) noexcept;
 
     const juce::String name_;

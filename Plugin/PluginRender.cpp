@@ -11,9 +11,7 @@ namespace physvib {
 namespace {
 
 constexpr int slideController = 74; // MPE's third dimension
-constexpr int sustainPedal = 64;
-constexpr int allSoundOff = 120;
-constexpr int resetControllers = 121;
+constexpr int sustainPedal = 64, allSoundOff = 120, resetControllers = 121;
 constexpr int allNotesOff = 123; // lets held ones go; others ring out, and the world is no note
 constexpr float peakFallDbPerSecond = 20.0f;
 
@@ -103,7 +101,10 @@ int PluginProcessor::renderPart(juce::AudioBuffer<float>& buffer, juce::MidiBuff
         guard_.moveTo(session->timeline().nextRenderedFrame(0));
     takes_.setTiming(timing());
     takes_.render(end - first, mode);
-    mix(buffer, first, end - first);
+    for (int j = 0; j < takes_.channels(); ++j)
+        if (const int channel = outputs_.channelOf[static_cast<std::size_t>(j)];
+            channel >= 0 && channel < buffer.getNumChannels())
+            takes_.addTo(buffer.getWritePointer(channel) + first, j, end - first);
     return end;
 }
 
@@ -207,8 +208,11 @@ void PluginProcessor::sendPaced(int first, int end) noexcept {
                       [&](int frame) { return take->session.callback().perform(input, frame); });
     });
     send({Parameter::material}, [&] {
-        return sendAt(materialPace_, first, end,
-                      [&](int frame) { return sendMaterial(take->session, frame); });
+        RenderInput input;
+        input.group = take->settings().midi.groupOfMaterial(juce::roundToInt(value(Parameter::material)));
+        return sendAt(materialPace_, first, end, [&](int frame) {
+            return input.group < 0 || take->session.callback().perform(input, frame);
+        });
     });
 }
 
@@ -216,12 +220,6 @@ void PluginProcessor::sendControls(int frame) noexcept {
     if (owesStop_) stopAll(frame);
     if (owesSilence_) silence(frame);
     sendPaced(frame, frame + 1);
-}
-
-bool PluginProcessor::sendMaterial(Session& session, int frame) noexcept {
-    RenderInput input;
-    input.group = takes_.settings().midi.groupOfMaterial(juce::roundToInt(value(Parameter::material)));
-    return input.group < 0 || session.callback().perform(input, frame);
 }
 
 void PluginProcessor::stopAll(int frame) noexcept {
@@ -392,30 +390,26 @@ void PluginProcessor::sustain(int first, int end) noexcept {
 }
 
 // Frames `from` to `to` of the part of the block that begins at `first`. The side chain's channels are the
-// buffer's first ones, until what is played is written over them.
+// buffer's first ones, until what is played is written over them. A beat strikes at its own time, which is
+// past: L is longer than it took to be known; where strikes are direct, as soon as it is sure to be known.
 void PluginProcessor::hear(const juce::AudioBuffer<float>& buffer, int first, int from, int to) noexcept {
     const double readiness = value(Parameter::beats);
     Session* const session = takes_.session();
     if (!session) return; // a take begins by forgetting
     beats_.hear(buffer, first + from, to - from, 0.01 * readiness, [&](const BandOnset& onset, int frame) {
-        if (readiness > 0.0) strikeBeat(*session, onset, frame - first);
+        if (readiness <= 0.0) return;
+        const auto& settings = takes_.settings();
+        const int felt = frame - first + (session->timeline().isDirectFromStart() ? beats_.delayFrames() : 0);
+        BeatVoices voices;
+        voices.enchanters = usualBeatEnchanters(settings.layout.count);
+        voices.level = gainOfLevel(value(Parameter::strikeLevel));
+        strikeBeat(onset, 0, voices, settings.layout, settings.midi.fieldWidthMetres(),
+                   settings.midi.fieldHeightMetres(),
+                   [&](const CollisionEvent& event) { session->callback().strike(event, felt); });
     });
     if (auto* const delay = takes_.take()->music())
         music_.hear(buffer, first + from, to - from, gainOfLevel(value(Parameter::music)),
                     value(Parameter::musicSides) > 0.5, *delay, session->timeline().nextInputFrame(from));
-}
-
-// At the onset's own time, which is past: L is longer than the beat took to be known. Where strikes are
-// direct, as soon as it is sure to be known.
-void PluginProcessor::strikeBeat(Session& session, const BandOnset& onset, int frame) noexcept {
-    const auto& settings = takes_.settings();
-    const int felt = session.timeline().isDirectFromStart() ? frame + beats_.delayFrames() : frame;
-    BeatVoices voices;
-    voices.enchanters = usualBeatEnchanters(settings.layout.count);
-    voices.level = gainOfLevel(value(Parameter::strikeLevel));
-    physvib::strikeBeat(onset, 0, voices, settings.layout, settings.midi.fieldWidthMetres(),
-                        settings.midi.fieldHeightMetres(),
-                        [&](const CollisionEvent& event) { session.callback().strike(event, felt); });
 }
 
 void PluginProcessor::control(int channel, int controller, int value, int frame) noexcept {
@@ -438,13 +432,6 @@ void PluginProcessor::control(int channel, int controller, int value, int frame)
     normals_[static_cast<std::size_t>(which)] = static_cast<float>(value) / 127.0f;
     parameters_[static_cast<std::size_t>(which)]->setByController(normals_[static_cast<std::size_t>(which)]);
     sendControls(frame);
-}
-
-void PluginProcessor::mix(juce::AudioBuffer<float>& buffer, int first, int frames) noexcept {
-    for (int j = 0; j < takes_.channels(); ++j)
-        if (const int channel = outputs_.channelOf[static_cast<std::size_t>(j)];
-            channel >= 0 && channel < buffer.getNumChannels())
-            takes_.addTo(buffer.getWritePointer(channel) + first, j, frames);
 }
 
 void PluginProcessor::measure(const juce::AudioBuffer<float>& buffer) noexcept {

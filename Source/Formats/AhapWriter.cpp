@@ -56,6 +56,7 @@ bool isSilent(std::span<const EnvelopePoint> points) {
     return std::ranges::all_of(points, [](const EnvelopePoint& p) { return p.amplitude == 0.0; });
 }
 
+/// Pieces in time order; silences are omitted, except where a transient sounds.
 class Cutter {
 public:
     explicit Cutter(const ClipChannel& channel)
@@ -154,9 +155,6 @@ private:
     bool hasTransients_; // false: even an envelope of silence is written, because there is nothing else
     std::vector<AhapPiece> pieces_;
 };
-
-/// In time order; silences are omitted, except where a transient sounds. `channel.transients` are, too.
-std::vector<AhapPiece> ahapPieces(const ClipChannel& channel) { return Cutter{channel}.take(); }
 
 constexpr std::size_t mostCurvePoints = 16; // per curve on a phone
 constexpr double intensityTolerance = 0.002, sharpnessTolerance = 0.001;
@@ -270,7 +268,7 @@ private:
 
 std::string ahapText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale) {
     Pattern pattern{scale};
-    for (const AhapPiece& piece : ahapPieces(channel)) pattern.add(piece);
+    for (const AhapPiece& piece : Cutter{channel}.take()) pattern.add(piece);
     for (const ClipTransient& t : channel.transients) pattern.add(t);
     return jsonLines({{"Version", 1},
                       {"Metadata", {{"Project", title}, {"Created", "PhysVib"}}},

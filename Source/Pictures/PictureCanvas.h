@@ -82,9 +82,7 @@ using namespace readable;
 
 enum class Align { left, centre, right }; ///< in the middle of its height
 
-constexpr float smallText = 15.0f;
-constexpr float mediumText = 18.0f;
-constexpr float largeText = 29.0f;
+constexpr float smallText = 15.0f, mediumText = 18.0f, largeText = 29.0f;
 
 /// Draws the recurring parts; everything in whole pixels.
 struct Canvas {

@@ -38,8 +38,7 @@ private:
     const char* meaning_ = "frequency";
 };
 
-constexpr int headingHeight = 24;
-constexpr int axisHeight = 22;
+constexpr int headingHeight = 24, axisHeight = 22;
 constexpr int peakWidth = 92; ///< right of every lane: its peak in dBFS
 
 /// The label of an enchanter: the caller's, else A..Z for up to 26, else its number.

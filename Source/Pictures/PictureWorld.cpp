@@ -207,17 +207,6 @@ void drawEnchanters(const Canvas& canvas, const PictureInput& input, const Field
     }
 }
 
-namespace {
-
-std::string remarkOn(const PictureInput& input) {
-    const std::string times = "\xc3\x97";
-    const auto size =
-        shortNumber(input.fieldWidthMetres) + " " + times + " " + shortNumber(input.fieldHeightMetres) + " m";
-    return input.scene != nullptr && !input.events.empty() ? size + ", bodies as at the strongest hit" : size;
-}
-
-} // namespace
-
 void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours& colours, Area panel) {
     canvas.panel(panel);
     const Area spill = panel;
@@ -238,7 +227,10 @@ void drawWorld(const Canvas& canvas, const PictureInput& input, const HitColours
         if (strongest) drawStrongest(canvas, input, map, *strongest);
         drawEnchanters(canvas, input, map, spill);
     }
-    canvas.heading("WORLD", remarkOn(input), heading);
+    auto remark =
+        shortNumber(input.fieldWidthMetres) + " \xc3\x97 " + shortNumber(input.fieldHeightMetres) + " m";
+    if (input.scene != nullptr && strongest) remark += ", bodies as at the strongest hit";
+    canvas.heading("WORLD", remark, heading);
     if (!strongest) return canvas.text("Nothing was struck.", first, Align::left, palette::muted, mediumText);
     canvas.text(sentenceOn(*strongest), first, Align::left, palette::now, mediumText);
     canvas.text(whoHitWhom(input, *strongest), second, Align::left, palette::muted);

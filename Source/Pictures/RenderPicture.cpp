@@ -10,12 +10,7 @@ namespace {
 
 using namespace picture;
 
-constexpr int width = 1600;
-constexpr int height = 1000;
-constexpr int margin = 24;
-constexpr int gap = 14;
-constexpr int headerHeight = 60;
-constexpr int footerHeight = 34;
+constexpr int width = 1600, height = 1000, margin = 24, gap = 14, headerHeight = 60, footerHeight = 34;
 constexpr int besideLanes = 200; // headings, the lane of hits, the axis
 
 void drawHeader(const Canvas& canvas, const PictureInput& input, Area row) {

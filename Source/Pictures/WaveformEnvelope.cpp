@@ -16,11 +16,6 @@ WaveformEnvelope::WaveformEnvelope(int channels, std::int64_t firstFrame, std::i
     , ranges_(static_cast<std::size_t>(channels) * columns, nothing)
     , peaks_(static_cast<std::size_t>(channels), 0.0f) {}
 
-// First frame of a column, counted from the window's start; rounded up, so every frame has one column.
-std::int64_t WaveformEnvelope::columnStart(std::int64_t column) const noexcept {
-    return (column * count_ + columns - 1) / columns;
-}
-
 void WaveformEnvelope::add(const float* const* block, int frames) {
     const std::int64_t blockStart = now_ - first_;
     now_ += frames;
@@ -28,7 +23,8 @@ void WaveformEnvelope::add(const float* const* block, int frames) {
     const std::int64_t end = std::min(blockStart + frames, count_);
     while (at < end) {
         const std::int64_t column = at * columns / count_;
-        const std::int64_t runEnd = std::min(end, columnStart(column + 1));
+        // the next column begins at a frame that is rounded up, so every frame has one column
+        const std::int64_t runEnd = std::min(end, ((column + 1) * count_ + columns - 1) / columns);
         for (int c = 0; c < channels(); ++c) addRun(c, column, block[c] + (at - blockStart), runEnd - at);
         at = runEnd;
     }

@@ -34,7 +34,6 @@ public:
     float peak() const noexcept;
 
 private:
-    std::int64_t columnStart(std::int64_t column) const noexcept;
     void addRun(int channel, std::int64_t column, const float* samples, std::int64_t frames);
 
     std::int64_t first_;

@@ -94,8 +94,7 @@ Automated takeOf(std::int64_t frames, std::uint32_t seed, int every) {
 
 Samples bounceOf(const Automated& take, const PluginState& state, const std::vector<int>& blocks,
                  std::int64_t frames) {
-    TestHost host{state};
-    host.prepare(48000, *std::ranges::max_element(blocks));
+    TestHost host{state, *std::ranges::max_element(blocks)};
     return playedTo(host, take.song, take.notes, blocks, frames + host.plugin->getLatencySamples());
 }
 
@@ -159,8 +158,7 @@ TEST(Automation, ANoteHasTheLevelOfItsFrame) {
 }
 
 TEST(Automation, SilenceClosesAtItsFrame) {
-    TestHost host{shakenBox()};
-    host.prepare(48000, 4096);
+    TestHost host{shakenBox(), 4096};
     const auto open = playedTo(host, {}, {}, {4096}, 48000);
     PointSong song;
     const int latency = host.plugin->getLatencySamples(), from = 30000 + latency;
@@ -181,8 +179,7 @@ PluginState heldTone() {
 
 /// A sine of the level that a host draws: a block's first and last frame, as VST3 lets it.
 Samples drawn(int block, std::int64_t frames) {
-    TestHost host{heldTone()};
-    host.prepare(48000, block);
+    TestHost host{heldTone(), block};
     PointSong song;
     const auto levelAt = [](std::int64_t at) {
         return 0.8 + 0.1 * std::sin(2.0 * 3.14159265358979 * 2.0 * static_cast<double>(at) / 48000.0);
@@ -238,8 +235,7 @@ private:
 };
 
 Samples risingAndFalling(int block, std::int64_t frames) {
-    TestHost host{heldTone()};
-    host.prepare(48000, 4096); // one latency for all
+    TestHost host{heldTone(), 4096}; // one latency for all
     Samples signal(1);
     for (std::int64_t at = 0; at < frames; at += block) {
         RisingAndFalling line{at, block};
@@ -259,8 +255,7 @@ TEST(Automation, ALineToOneFrameBehindTheBlockIsTheSameInBlocksOfAnySize) {
 
 TEST(Automation, AMessageBehindTheBlocksEndIsPlayedAtItsLastFrameAndCounted) {
     const auto struckAt = [](int frame) {
-        TestHost host{strikeAt(0, 1)};
-        host.prepare(48000, 256);
+        TestHost host{strikeAt(0, 1), 256};
         host.block(256, oneNote(60, 100, frame));
         return std::pair{host.played(9600), host.plugin->displacedMessages()};
     };

@@ -12,11 +12,10 @@ using Message = juce::MidiMessage;
 
 /// Half a second of a world and two notes, with a bend; one of the parameters stands elsewhere.
 Samples played(bool isHeld, Parameter moved, float position) {
-    TestHost host;
     PluginState state = shakenBox();
     state.voice.isHeld = isHeld;
     if (isHeld) state.voice.pitch = NotePitch::note;
-    EXPECT_TRUE(host.plugin->apply(state)) << host.plugin->trouble();
+    TestHost host{state};
     if (moved != Parameter::count) host.plugin->parameter(moved).setValue(position);
     host.prepare(48000, 480);
     Samples signal(4);

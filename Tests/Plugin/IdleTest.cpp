@@ -7,7 +7,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <unistd.h>
 
 namespace physvib {
@@ -200,38 +199,6 @@ TEST(Stepper, WhoRendersNothingIsVisitedSeldomAndWhoHasLeftNever) {
     waitForTicks(idle, idle.ticks + 3);
     EXPECT_EQ(playing.ticks, left);
     stepper.remove(idle);
-}
-
-std::int64_t figureOf(const std::string& file, const std::string& name) {
-    std::ifstream in{file};
-    for (std::string word; in >> word;)
-        if (word == name + ":") {
-            std::int64_t value = 0;
-            in >> value;
-            return value;
-        }
-    return 0;
-}
-
-// Figures for people: what fifty instances cost that are prepared and render nothing.
-TEST(Stepper, DISABLED_FiftyInstances) {
-    for (const bool hasWorld : {true, false}) {
-        const auto memory = figureOf("/proc/self/status", "VmRSS");
-        std::vector<std::unique_ptr<TestHost>> hosts;
-        for (int i = 0; i < 50; ++i) {
-            auto& host = *hosts.emplace_back(std::make_unique<TestHost>());
-            if (!hasWorld) ASSERT_TRUE(host.plugin->apply(newPluginState()));
-            host.prepare(48000, 512, false);
-        }
-        std::this_thread::sleep_for(std::chrono::seconds{2});
-        juce::SharedResourcePointer<Stepper> stepper;
-        const auto before = stepper->wakeUps();
-        std::this_thread::sleep_for(std::chrono::seconds{10});
-        std::printf("%s: wake-ups of the stepping thread: %.1f a second; memory: %.1f MB an instance\n",
-                    hasWorld ? "worlds" : "instruments",
-                    static_cast<double>(stepper->wakeUps() - before) / 10.0,
-                    static_cast<double>(figureOf("/proc/self/status", "VmRSS") - memory) / 1024.0 / 50.0);
-    }
 }
 
 // A host that plays notes and automation for hours, in blocks that are not realtime: what the plug-in holds

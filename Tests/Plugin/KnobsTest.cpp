@@ -18,9 +18,7 @@ PluginState knobPreset(std::string_view name) {
 
 struct KnobHost : TestHost {
     explicit KnobHost(const PluginState& state)
-        : TestHost{state} {
-        prepare(48000, 480);
-    }
+        : TestHost{state, 480} {}
     void turn(Parameter which, std::string_view to) { set(which, valueOf(rowOf(which), to)); }
     /// What is struck by that, as the log has it.
     std::vector<CollisionEvent> struck(std::initializer_list<Message> messages) {

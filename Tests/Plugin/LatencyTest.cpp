@@ -51,8 +51,7 @@ std::int64_t lagOf(const Samples& signal, const Samples& reference) {
 }
 
 TEST(Latency, OfAWorldIsAsToldAtAnyBlockSizeInBothTimings) {
-    TestHost offline{drop()};
-    offline.prepare(48000, 64);
+    TestHost offline{drop(), 64};
     const Samples reference = offline.felt(2 * 48000);
     std::printf("block     safe told, measured     tight told, measured (frames at 48 kHz)\n");
     for (const int size : blockSizes) {
@@ -76,8 +75,7 @@ TEST(Latency, TheTimingChangesWhileItPlaysWithoutANewRun) {
     LatencyHost host{shakenBox()};
     host.prepare(48000, 512, false);
     const auto safe = host.plugin->takes().latencyFrames();
-    TestHost offline;
-    offline.prepare(48000, 512);
+    TestHost offline{shakenBox(), 512};
     Samples signal;
     const Samples reference = later(offline.played(10 * 48000), offline.plugin->getLatencySamples());
     for (int change = 1; change <= 4; ++change) {
@@ -162,8 +160,7 @@ TEST(DirectStrikes, CollisionsKeepThePlayOutDelay) {
 }
 
 TEST(DirectStrikes, TheSwitchIsSavedAndTheLatencyFollowsIt) {
-    TestHost host;
-    host.prepare(48000, 480);
+    TestHost host{shakenBox(), 480};
     const int playOut = host.plugin->getLatencySamples();
     auto state = host.plugin->state();
     EXPECT_FALSE(state.isDirect) << "as it ever was";

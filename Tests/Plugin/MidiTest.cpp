@@ -123,8 +123,7 @@ TEST(Midi, NoControllerMovesANewInstance) {
 TEST(Midi, AllNotesOffLetsTheWorldGoOn) {
     Samples undisturbed, told;
     for (auto* signal : {&undisturbed, &told}) {
-        TestHost host;
-        host.prepare(48000, 480);
+        TestHost host{shakenBox(), 480};
         host.play(48000, *signal);
         juce::MidiBuffer midi;
         if (signal == &told)
@@ -329,8 +328,7 @@ TEST(Midi, ABlockOfNoFramesIsHeard) {
 }
 
 TEST(Midi, AProgramChangeChoosesThatPreset) {
-    TestHost host;
-    host.prepare(48000, 480, false);
+    TestHost host{shakenBox(), 480, false};
     const int last = host.plugin->getNumPrograms() - 1;
     for (const int program : {last, 127, 9}) {
         host.block(480, oneMessage(Message::programChange(1, program)));

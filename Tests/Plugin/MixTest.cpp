@@ -89,8 +89,7 @@ TEST(PluginMix, AFaderIsFeltLLaterAndTheTakeGoesOn) {
 }
 
 TEST(PluginMix, ASoloSilencesTheOthersAlsoInTheTakesThatFollow) {
-    TestHost host;
-    host.prepare(48000, 512);
+    TestHost host{shakenBox(), 512};
     auto state = host.plugin->state();
     state.strips[1].isSolo = true;
     host.plugin->edit(state);
@@ -196,8 +195,7 @@ TEST(PluginProcessor, HostsShowAUnitOnceAndNoMinusZero) {
 }
 
 TEST(PluginProcessor, ARateThatCannotBeRenderedIsSaidAndSilent) {
-    TestHost host;
-    host.prepare(48000, 512);
+    TestHost host{shakenBox(), 512};
     for (const double rate : {384000.0, 192001.0, 4999.0, 4000.0}) {
         host.prepare(rate, 512);
         EXPECT_EQ(peakOf(host.played(static_cast<std::int64_t>(rate))), 0.0f) << rate;
@@ -231,8 +229,7 @@ TEST(PluginProcessor, WithoutPrepareAndAfterReleaseThereIsSilence) {
 }
 
 TEST(PluginProcessor, BypassIsSilentAndKeepsTheTime) {
-    TestHost host;
-    host.prepare(48000, 480);
+    TestHost host{shakenBox(), 480};
     Samples whole, open, after;
     host.play(6 * 48000, whole);
     host.prepare(48000, 480);
@@ -251,8 +248,7 @@ TEST(PluginProcessor, BypassIsSilentAndKeepsTheTime) {
 }
 
 TEST(PluginProcessor, ASceneThatIsChangedWhileItPlaysFadesAndGoesOn) {
-    TestHost host;
-    host.prepare(48000, 480);
+    TestHost host{shakenBox(), 480};
     Samples signal = host.played(48000);
     for (const int program : {1, 2, 3, 4, 0}) {
         host.plugin->setCurrentProgram(program);

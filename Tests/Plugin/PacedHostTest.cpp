@@ -17,6 +17,10 @@ public:
         : TestHost{state} {
         plugin->takes().driveByHand();
     }
+    PacedHost(const PluginState& state, int block)
+        : PacedHost{state} {
+        prepare(48000, block, false);
+    }
 
     void wait(std::int64_t lengthNs) {
         for (const std::int64_t end = nowNs + lengthNs; nowNs < end;) {
@@ -166,8 +170,7 @@ TEST(LyingHost, DirectNotesBesideAWorldAreTheBounce) {
 }
 
 TEST(PacedHost, TheEditorSaysWhatIsFeltWhen) {
-    PacedHost host{busy()};
-    host.prepare(48000, 512, false);
+    PacedHost host{busy(), 512};
     const auto editor = openEditor<PluginEditor>(*host.plugin);
     editor->refresh();
     EXPECT_TRUE(editor->statusText().startsWith(
@@ -181,21 +184,18 @@ TEST(PacedHost, TheEditorSaysWhatIsFeltWhen) {
 
 // A thread that never comes costs nothing: the world is stepped where it is needed.
 TEST(PacedHost, AThreadThatDoesNotComeIsReplacedByTheCall) {
-    PacedHost host{busy()};
-    host.prepare(48000, 512, false);
+    PacedHost host{busy(), 512};
     Samples signal = host.played(48000);
     EXPECT_EQ(host.status().slippedNs, 0);
     EXPECT_GT(host.status().aheadBlocks, 20u);
-    PacedHost paced{busy()};
-    paced.prepare(48000, 512, false);
+    PacedHost paced{busy(), 512};
     paced.playInTime(signal);
     EXPECT_EQ(paced.status().aheadBlocks, 0u) << "where the thread is in time";
 }
 
 // A machine that is busy elsewhere: the thread comes a hundred times too late, then in time again.
 TEST(PacedHost, AThreadThatIsLateForLongChangesNoSampleAndIsBackAtOnce) {
-    PacedHost host{busy()};
-    host.prepare(48000, 512, false);
+    PacedHost host{busy(), 512};
     const int latency = host.plugin->getLatencySamples();
     Samples signal;
     host.playInTime(signal);
@@ -210,8 +210,7 @@ TEST(PacedHost, AThreadThatIsLateForLongChangesNoSampleAndIsBackAtOnce) {
     host.playInTime(signal);
     EXPECT_EQ(host.status().aheadBlocks, stepped) << "the thread does it again";
     EXPECT_EQ(host.status().slippedNs, 0);
-    TestHost offline{busy()};
-    offline.prepare(48000, 512);
+    TestHost offline{busy(), 512};
     EXPECT_EQ(host.plugin->takes().latencyFrames(), latency);
     EXPECT_TRUE(later(signal, latency) ==
                 later(offline.played(static_cast<std::int64_t>(signal[0].size())), latency));

@@ -25,8 +25,7 @@ void show(const juce::Image& picture, const juce::String& name) {
 }
 
 TEST(PluginEditor, OpensFiftyTimesWhileItPlays) {
-    TestHost host;
-    host.prepare(48000, 512);
+    TestHost host{shakenBox(), 512};
     for (int i = 0; i < 50; ++i) {
         auto editor = openEditor<PluginEditor>(*host.plugin);
         ASSERT_NE(editor, nullptr);
@@ -63,8 +62,7 @@ TEST(PluginEditor, ANewInstanceSaysWhatToPressUntilANoteIsFelt) {
 }
 
 TEST(PluginEditor, ShowsTheWorldMoving) {
-    TestHost host;
-    host.prepare(48000, 480);
+    TestHost host{shakenBox(), 480};
     auto state = host.plugin->state();
     state.layout.enchanters[2].actuator = "lra-205";
     state.equalised[2] = {{205.0, 12.0}, {160.0, 260.0}};
@@ -146,8 +144,7 @@ bool hasControl(juce::Component& in, const juce::String& title) {
 }
 
 TEST(PluginEditor, HasBeatsWhereThereIsASideChainAndSaysWhereThatIsOff) {
-    TestHost host;
-    host.prepare(48000, 512);
+    TestHost host{shakenBox(), 512};
     auto editor = openEditor<PluginEditor>(*host.plugin);
     EXPECT_TRUE(hasControl(*editor, "Beats"));
     editor->refresh();

@@ -227,8 +227,7 @@ TEST(PluginChunk, APresetIsTheSameWhateverWasChosenBefore) {
 }
 
 TEST(PluginChunk, AStopIsSilentAndNoPartOfIt) {
-    TestHost host{shakenBox()};
-    host.prepare(48000, 512);
+    TestHost host{shakenBox(), 512};
     const auto before = chunkOf(*host.plugin);
     for (const bool isStopped : {false, true, false}) {
         host.plugin->stop(isStopped);
@@ -239,8 +238,7 @@ TEST(PluginChunk, AStopIsSilentAndNoPartOfIt) {
 }
 
 TEST(PluginChunk, AStateThatIsTakenIsNoEdit) {
-    TestHost host;
-    host.prepare(48000, 512);
+    TestHost host{shakenBox(), 512};
     const auto chunk = chunkOf(*host.plugin);
     const HostNews listener{*host.plugin};
     restore(*host.plugin, chunk);
@@ -299,8 +297,7 @@ TEST(PluginChunk, NoLockIsHeldWhileTheHostIsTold) {
 }
 
 TEST(PluginChunk, TheHostIsToldOfALatencyThatChanges) {
-    TestHost host;
-    host.prepare(48000, 512);
+    TestHost host{shakenBox(), 512};
     const int before = host.plugin->getLatencySamples();
     EXPECT_EQ(before, 512 + 480 + 960 + 47) << "a block, 10 ms of gap, two steps, the limiter";
     const HostNews listener{*host.plugin};

@@ -155,6 +155,11 @@ public:
         : TestHost{} {
         EXPECT_TRUE(plugin->apply(state)) << plugin->trouble();
     }
+    /// Prepared at 48 kHz for blocks of that size.
+    TestHost(const PluginState& state, int block, bool offline = true)
+        : TestHost{state} {
+        prepare(48000, block, offline);
+    }
     ~TestHost() { plugin->setPlayHead(nullptr); }
 
     void prepare(double rate, int block, bool offline = true) {

@@ -24,8 +24,8 @@ PluginState instrument(bool isHeld) {
 }
 
 struct Stopped {
-    explicit Stopped(bool isHeld) {
-        EXPECT_TRUE(host.plugin->apply(instrument(isHeld))) << host.plugin->trouble();
+    explicit Stopped(bool isHeld)
+        : host{instrument(isHeld)} {
         host.playHead.isThere = host.playHead.isPlaying = true;
         host.prepare(rate, block);
     }

@@ -25,8 +25,7 @@ PluginState onPlay() {
 TEST(Takes, WhatIsOwedIsPlayedHoweverManyJumpsFollow) {
     constexpr int block = 64, before = 300 * block;
     for (const int apart : {2, 3, 10}) { // blocks between jumps; L is 24
-        TestHost host{onPlay()};
-        host.prepare(48000, block);
+        TestHost host{onPlay(), block};
         const int latency = host.plugin->getLatencySamples();
         Samples straight, jumping;
         host.playHead.isThere = host.playHead.isPlaying = true;
@@ -131,8 +130,7 @@ TEST(Takes, ATakeIsPlayedByItsOwnSettings) {
         return s.scene.materials[static_cast<std::size_t>(s.notes[0].material)].frequencyHz;
     };
     ASSERT_NE(frequencyOf(two), frequencyOf(four));
-    TestHost host{two};
-    host.prepare(48000, 64);
+    TestHost host{two, 64};
     std::atomic<bool> isDone{false};
     std::atomic<std::size_t> seen{0};
     std::thread message{[&] { // as many as make eleven, however the processor is shared
@@ -183,8 +181,7 @@ constexpr std::size_t largeBytes = 100'000; // less than a renderer takes at onc
 
 TEST(Takes, WhatPlaysIsSteppedWhileAnotherIsMade) {
     if (!ownsMemory) GTEST_SKIP() << "under the thread sanitizer memory is its own";
-    TestHost host{onPlay()};
-    host.prepare(48000, 480, false);
+    TestHost host{onPlay(), 480, false};
     host.playHead.isThere = host.playHead.isPlaying = true;
     std::promise<void> let;
     letMake = &let;

@@ -12,8 +12,7 @@ using namespace test;
 /// What is played in three seconds, of which the first second is left alone.
 template <class Change>
 std::vector<CollisionEvent> after(Change change, int block = 480, const PluginState& state = shakenBox()) {
-    TestHost host{state};
-    host.prepare(48000, block);
+    TestHost host{state, block};
     host.played(48000);
     change(host);
     host.played(96000 + host.plugin->getLatencySamples());
@@ -93,8 +92,7 @@ TEST(WorldInput, APushMovesABodyByItsVelocity) {
 TEST(WorldInput, SpawnedDiscsAreFeltAndTheOldestMakeRoom) {
     auto state = shakenBox();
     state.notes = {{.note = 61, .kind = NoteKind::spawn, .material = 1, .atFullVelocity = {0.0, -5.0}}};
-    TestHost host{state};
-    host.prepare(48000, 480);
+    TestHost host{state, 480};
     std::vector<BodyPose> poses;
     host.block(480);
     host.plugin->takes().poses(poses);

@@ -17,8 +17,7 @@ TEST(StopWalk, EveryStateOfTheEditorIsSilencedByEscAndByAPress) {
     folder.setAsCurrentWorkingDirectory(); // what is saved on the way
     const SystemChooser chooser{folder};
     setenv("HOME", folder.getFullPathName().toRawUTF8(), 1);
-    TestHost host;
-    host.prepare(48000, 480);
+    TestHost host{shakenBox(), 480};
     auto& bypass = host.plugin->parameter(Parameter::bypass);
     std::unique_ptr<juce::AudioProcessorEditor> editor;
     StopWalk walk{{[&] {
