@@ -2,16 +2,14 @@
 // Reports of simulated participants whose rows are edited, sentence by sentence.
 #pragma once
 #include "Io/Text/CsvTable.h"
-#include "Lab/Files/ProtocolFile.h"
-#include "Lab/Files/TrialLog.h"
 #include "Lab/Report/ReportTrials.h"
 #include "Lab/Report/StudyReport.h"
-#include "Lab/Study/SimulatedObserver.h"
-#include "TestPlaces.h"
+#include "Support/Studies.h"
 #include <cctype>
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
+#include <ranges>
 #include <regex>
 
 namespace physvib::test {
@@ -22,27 +20,16 @@ using Edit = std::function<void(Row&)>; ///< a row without a participant is left
 /// A simulated participant's trial file as if of a person, edited.
 inline std::string fileOf(const Protocol& protocol, int number, const Edit& edit) {
     const Participant participant{std::string("P").append(std::to_string(number)), number, "person"};
-    Experiment experiment{protocol, participant};
-    const SimulatedObserver observer{ObserverSettings{}, protocol, participant};
-    std::string text = trialHeader(protocol, participant, "0.2.0");
-    const std::string head = text.substr(0, text.find('\n') + 1);
-    while (!experiment.isDone())
-        text += trialRow(protocol, participant, experiment.take(observer.answer(experiment)));
+    const std::string text = trialFile(protocol, participant, answered(protocol, participant), "0.2.0");
     const CsvTable table = readCsvTable(text, "rows").value;
-    std::string edited = head;
-    const auto add = [&](auto cellOf) {
-        for (std::size_t c = 0; c < table.columns.size(); ++c) {
-            if (c > 0) edited += ',';
-            appendCell(edited, cellOf(c));
-        }
-        edited += '\n';
-    };
-    add([&](std::size_t c) { return table.columns[c]; });
+    std::string edited = text.substr(0, text.find('\n') + 1) + csvLine(table.columns);
     for (const CsvRow& row : table.rows) {
         Row cells;
         for (std::size_t c = 0; c < table.columns.size(); ++c) cells[table.columns[c]] = row.cells[c];
         if (edit) edit(cells);
-        if (!cells["participant"].empty()) add([&](std::size_t c) { return cells[table.columns[c]]; });
+        if (!cells["participant"].empty())
+            edited += csvLine(
+                std::views::transform(table.columns, [&](const auto& column) { return cells[column]; }));
     }
     return edited;
 }

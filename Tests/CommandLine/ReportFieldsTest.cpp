@@ -3,8 +3,8 @@
 // page, and is not there without it.
 #include "Calls.h"
 #include "Io/Text/CsvTable.h"
-#include "Lab/Files/ProtocolFile.h"
 #include "Lab/Report/AnalysisScript.h"
+#include "Support/Studies.h"
 #include "System/Process.h"
 #include <algorithm>
 #include <gtest/gtest.h>
@@ -18,9 +18,8 @@ namespace {
 class ReportFields : public test::CommandLine {
 protected:
     /// Trials of so many simulated participants as if they were people's, felt with that apparatus.
-    void plant(const std::string& protocol, int participants, const std::string& apparatus,
-               const std::string& file = {}) const {
-        runs("study run " + (file.empty() ? protocol : file) + " --observer simulated --participants " +
+    void plant(const std::string& protocol, int participants, const std::string& apparatus) const {
+        runs("study run " + protocol + " --observer simulated --participants " +
              std::to_string(participants));
         for (int number = 1; number <= participants; ++number) {
             const std::string name =
@@ -104,8 +103,8 @@ TEST_F(ReportFields, LevelsStandByStimulusAndPart) {
     write("model-or-sound-P01.csv", text);
     const std::string whole = page("report model-or-sound-P01.csv --out out"),
                       table = read("out/levels-by-stimulus.csv");
-    EXPECT_TRUE(has(table, "drop,main,pair=wood-wood size=small height=3,AV-FV-DRV,peak_g,4,0.3,"));
-    EXPECT_TRUE(has(table, "drop,main,pair=wood-wood size=small height=1,SV,peak_g,4,0.3,"));
+    EXPECT_TRUE(hasAll(table, {"drop,main,pair=wood-wood size=small height=3,AV-FV-DRV,peak_g,4,0.3,",
+                               "drop,main,pair=wood-wood size=small height=1,SV,peak_g,4,0.3,"}));
     EXPECT_TRUE(has(whole, "<li>study1: 2 g, assumed</li>"));
     EXPECT_FALSE(has(whole, "the peak of what was felt"));
 }
@@ -181,15 +180,14 @@ TEST_F(ReportThresholds, AreComparedWithinPeople) {
 
 TEST_F(ReportThresholds, OfConstantStimuliArePlanned) {
     if (!hasProgram("Rscript")) GTEST_SKIP() << "Rscript (Debian: r-base-core) is not here";
-    writeThree(loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/frequency-constant.json").value);
+    writeThree(example("frequency-constant"));
     const std::string plan = call("study plan study.json --participants 4 --out plan.txt").out;
-    for (const char* test :
-         {"- threshold and half interquartile range of a function: ",
-          "likelihood, logistic, guess rate 50 %, lapse rate up to 10 %; threshold: 75 %, apart from "
-          "lapses\n",
-          "analysis of variance of threshold by condition",
-          "pairs by t of half interquartile range by condition"})
-        EXPECT_TRUE(has(plan, test));
+    EXPECT_TRUE(hasAll(
+        plan, {"- threshold and half interquartile range of a function: ",
+               "likelihood, logistic, guess rate 50 %, lapse rate up to 10 %; threshold: 75 %, apart from "
+               "lapses\n",
+               "analysis of variance of threshold by condition",
+               "pairs by t of half interquartile range by condition"}));
 }
 
 TEST_F(ReportThresholds, AndMatchesArePlannedWhateverTheSimulatedObserverFeels) {
@@ -198,8 +196,7 @@ TEST_F(ReportThresholds, AndMatchesArePlannedWhateverTheSimulatedObserverFeels) 
          {std::pair<std::string, std::string>{"detection-quest", "threshold by quest by condition"},
           {"gap-steps", "threshold by staircase by condition"},
           {"equal-sensation", "matched levels in match-60 by condition"}}) {
-        Protocol protocol =
-            loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/" + name + ".json").value;
+        Protocol protocol = example(name);
         for (SessionPlan& session : protocol.sessions)
             if (session.adjustment)
                 session.adjustment->leastDb = session.adjustment->startDb = 10.0; // felt as strong at its end
@@ -211,18 +208,15 @@ TEST_F(ReportThresholds, AndMatchesArePlannedWhateverTheSimulatedObserverFeels) 
 }
 
 TEST_F(ReportThresholds, OfTrainingsAreNotPlanned) {
-    for (Protocol one : {findProtocol("level-steps").value,
-                         loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/left-right.json").value}) {
+    for (Protocol one : {findProtocol("level-steps").value, example("left-right")}) {
         one.sessions.push_back(one.sessions.front());
         one.sessions.front().isTraining = true, one.sessions.front().name = "practice";
-        one.sessions.back() = loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/likert-seven.json")
-                                  .value.sessions.back();
+        one.sessions.back() = example("likert-seven").sessions.back();
         write("study.json", protocolJson(one));
         std::filesystem::remove(folder_ / "analysis.R");
         const auto outcome = runs("study plan study.json --participants 4 --out plan.txt");
         EXPECT_TRUE(has(outcome.out, "\nMeasures, of each participant\n- scale: mean score\n\n"));
-        for (const char* words : {"- threshold", "- staircases", "- functions"})
-            EXPECT_FALSE(has(outcome.out, words));
+        EXPECT_TRUE(hasNone(outcome.out, {"- threshold", "- staircases", "- functions"}));
     }
 }
 
@@ -301,10 +295,6 @@ TEST(BidsDataset, EveryColumnIsDescribed) {
     EXPECT_EQ(description.at("BIDSVersion"), "1.8.0");
     EXPECT_TRUE(has(description.at("Name").get<std::string>(), "SIMULATED"));
     EXPECT_TRUE(has(files.at("README"), "SIMULATED"));
-}
-
-TEST(BidsDataset, WithoutParticipantsThereIsNone) {
-    EXPECT_TRUE(bidsDataset({"t", {}, {"a"}, {{2, {"1"}}}}, {"s", "t", "0", {}, false}).empty());
 }
 
 } // namespace

@@ -43,10 +43,6 @@ Protocol sessions() {
         .value;
 }
 
-Protocol example(const std::string& name) {
-    return loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/" + name + ".json").value;
-}
-
 struct Sentence {
     const char* words;
     Rows isTrue, isNot;
@@ -96,36 +92,30 @@ std::vector<Sentence> sentences() {
     const Edit unscored = [](Row& row) {
         if (row["participant"] == "P2" && row["trial"] == "1") row["rough"].clear();
     };
-    const Edit noTraining = [](Row& row) {
-        if (row["phase"] == "training") row["participant"].clear();
+    const auto without = [](auto is) { // rows
+        return Edit{[=](Row& row) {
+            if (is(row)) row["participant"].clear();
+        }};
     };
-    const Edit lacks = [](Row& row) {
-        if (row["participant"] == "P2" && (row["trial"] == "5" || row["trial"] == "6"))
-            row["participant"].clear();
+    const auto withoutOfP2 = [&](auto is) {
+        return without([=](Row& row) { return row["participant"] == "P2" && is(row); });
     };
-    const Edit twoPoints = [](Row& row) { // each has one
-        if (row["stimulus"] == (row["participant"] == "P1" ? "1,1" : "1,2")) row["participant"].clear();
-    };
-    const Edit onePoint = [](Row& row) {
-        if (row["participant"] == "P2" && row["stimulus"] == "1,1") row["participant"].clear();
-    };
-    const Edit holes = [](Row& row) {
-        if (row["participant"] == "P2" && row["session"] == "main" && row["condition"] == "a" &&
-            (row["trial"] == "2" || row["trial"] > "6"))
-            row["participant"].clear();
-    };
-    const Edit stopsEarly = [](Row& row) {
-        if (row["participant"] == "P2" && std::stoi(row["trial"]) > 20) row["participant"].clear();
-    };
+    const Edit noTraining = without([](Row&row) { return row["phase"] == "training"; }),
+               lacks = withoutOfP2([](Row&row) { return row["trial"] == "5" || row["trial"] == "6"; }),
+               oneCondition = withoutOfP2([](Row&row) { return row["condition"] == "b"; }),
+               twoPoints = without([](Row&row) { // each has one
+                   return row["stimulus"] == (row["participant"] == "P1" ? "1,1" : "1,2");
+               }),
+               onePoint = withoutOfP2([](Row&row) { return row["stimulus"] == "1,1"; }),
+               holes = withoutOfP2([](Row&row) {
+                   return row["session"] == "main" && row["condition"] == "a" &&
+                          (row["trial"] == "2" || row["trial"] > "6");
+               }),
+               stopsEarly = withoutOfP2([](Row&row) { return std::stoi(row["trial"]) > 20; });
     return {
         {"<td>participants</td><td></td><td class=\"number\">3</td>", of(grid, 3), of(grid, 2)},
         {"no answer</td><td>these trials", of(grid, 3, set("response", "", "P2")), of(grid, 3)},
-        {"</td><td>tests of what is lacking, if any",
-         of(grid, 3,
-            [](Row& row) {
-                if (row["participant"] == "P2" && row["condition"] == "b") row["participant"].clear();
-            }),
-         of(grid, 3)},
+        {"</td><td>tests of what is lacking, if any", of(grid, 3, oneCondition), of(grid, 3)},
         {"no protocol: unfinished staircases and thresholds at an end of the levels are not known",
          of(unknown, 3), of(grid, 3)},
         {"training</td><td>these trials", of(grid, 3), of(grid, 3, noTraining)},
@@ -280,11 +270,11 @@ TEST(ReportSentences, APlanStandsBesideWhatWasDone) {
     auto trials = readReportTrials({{"P1.csv", fileOf(points(), 1, {})}}, {}, {}).value;
     trials.facts.plan = plan;
     const std::string page = studyReport(trials).files.at("index.html");
-    for (const std::string& row :
-         {"<td>hash of the protocol</td><td class=\"number\">7</td><td>" + trials.common("hash"),
-          std::string{"<td>participants</td><td class=\"number\">4</td><td class=\"number\">1</td>"},
-          std::string{"<td>a</td><td>yes</td><td>no</td>"}})
-        EXPECT_TRUE(has(page, row)) << page.substr(page.find("Planned and done"));
+    EXPECT_TRUE(hasAll(
+        page, {"<td>hash of the protocol</td><td class=\"number\">7</td><td>" + trials.common("hash"),
+               std::string{"<td>participants</td><td class=\"number\">4</td><td class=\"number\">1</td>"},
+               std::string{"<td>a</td><td>yes</td><td>no</td>"}}))
+        << page.substr(page.find("Planned and done"));
 }
 
 TEST(ReportSentences, BarsOfPointsBeginAtTheFirst) {
@@ -318,8 +308,7 @@ TEST(ReportSentences, StaircasesThatRanOutOfTimeAreNoChoices) {
         },
         true));
     EXPECT_TRUE(has(page, "ran out of time</td><td>these trials"));
-    for (const char* untrue : {"<h2>Choices", "expected trials of this kind"})
-        EXPECT_FALSE(has(page, untrue));
+    EXPECT_TRUE(hasNone(page, {"<h2>Choices", "expected trials of this kind"}));
 }
 
 TEST(ReportSentences, EachIsThereOnlyWhereRowsMakeItTrue) {

@@ -52,19 +52,20 @@ TEST_F(StudyCheckCommand, EveryConditionOfTheFallingObjectsKeepsItsDistancesBelo
                 EXPECT_NEAR(at("2") - at("1"), 3.01, 0.1) << pair << size << part;
                 EXPECT_NEAR(at("3") - at("1"), 4.77, 0.1) << pair << size << part;
             }
-    EXPECT_TRUE(has(outcome.out, "warning: condition drop, pair=rubber-concrete size=small height=1"));
-    EXPECT_TRUE(has(outcome.out, "below the threshold of detection at 80 Hz"));
-    EXPECT_TRUE(has(outcome.out, "warning: condition drop, pair=steel-steel size=small height=1"));
-    EXPECT_TRUE(has(outcome.out, "deviation from the thesis, 5.2.1: three experts match the levels"));
-    EXPECT_TRUE(has(outcome.out, "trials: 135"));
+    EXPECT_TRUE(hasAll(outcome.out,
+                       {"warning: condition drop, pair=rubber-concrete size=small height=1",
+                        "below the threshold of detection at 80 Hz",
+                        "warning: condition drop, pair=steel-steel size=small height=1",
+                        "deviation from the thesis, 5.2.1: three experts match the levels", "trials: 135"}));
 }
 
 TEST_F(StudyCheckCommand, WhatNeedsTheLimiterIsRefusedWithWhatItWouldNeed) {
     change("model-or-sound", {{"\"level_db\": -8", "\"level_db\": 0"}});
     const auto outcome = call("study check mine.json");
     EXPECT_EQ(outcome.exitCode, 1);
-    EXPECT_TRUE(has(outcome.out, "error: condition drop, pair=wood-wood size=large height=3, SV: peaks 7."));
-    EXPECT_TRUE(has(outcome.out, "expected a layout of at least 4."));
+    EXPECT_TRUE(
+        hasAll(outcome.out, {"error: condition drop, pair=wood-wood size=large height=3, SV: peaks 7.",
+                             "expected a layout of at least 4."}));
     refuses("study run mine.json --observer simulated --out other", 1, "which the limiter would lower", 1);
 }
 
@@ -123,8 +124,7 @@ TEST_F(StudyCheckCommand, ThePageHasWhatTheTextHas) {
 TEST_F(StudyCheckCommand, TheVersionAsPublishedHasOnlyTheDeviationsThatNoProtocolTakesAway) {
     const auto outcome = runs("study check model-or-sound-thesis --participants 20");
     EXPECT_TRUE(has(outcome.out, "deviation from the thesis, 5.2.1: three experts match the levels"));
-    EXPECT_FALSE(has(outcome.out, "impulses are taken when a contact is released"));
-    EXPECT_FALSE(has(outcome.out, "a decay rings out"));
+    EXPECT_TRUE(hasNone(outcome.out, {"impulses are taken when a contact is released", "a decay rings out"}));
     const auto grids = call("study check phantom-grids-thesis --participants 18");
     EXPECT_TRUE(
         has(grids.out,
@@ -147,12 +147,6 @@ TEST_F(StudyCheckCommand, BreaksThatDoNotHappenAreFound) {
     EXPECT_TRUE(has(call("study check mine.json").out,
                     "expected break_every beside break_s 180, found none: there is no break"))
         << read(".out");
-}
-
-TEST_F(StudyCheckCommand, OrdersAndBreaksAreCounted) {
-    const auto patterns = runs("study check patterns --participants 5");
-    EXPECT_TRUE(has(patterns.out, "orders: 5 participants"));
-    EXPECT_TRUE(has(patterns.out, "warning: orders are not balanced: 5 participants"));
 }
 
 } // namespace

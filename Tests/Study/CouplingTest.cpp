@@ -113,10 +113,6 @@ TEST(Coupling, AKnownCouplingIsMadeUpForAndAMisjudgedOneInPart) {
             }
             const std::string name = std::to_string(static_cast<int>(100 * share)) + "_" +
                                      std::to_string(static_cast<int>(degrees));
-            ::testing::Test::RecordProperty("before_matched_" + name,
-                                            std::to_string(before) + " " + std::to_string(matched));
-            ::testing::Test::RecordProperty("before_mismatched_" + name,
-                                            std::to_string(misjudged) + " " + std::to_string(after));
             if (share < 0.4 || degrees < 180.0) {
                 const bool isWithinLimit = share < 0.2 || degrees < 180.0;
                 EXPECT_LT(matched, (isWithinLimit ? 0.1 : 0.55) * before) << name;

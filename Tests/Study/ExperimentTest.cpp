@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Studies trial by trial: what is presented, what is refused, what unlocks, and going on after a cut.
 #include "Lab/Study/Experiment.h"
-#include "Lab/Study/SimulatedObserver.h"
-#include "Study/StaircaseThreshold.h"
 #include "Support/Has.h"
+#include "Support/Studies.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -21,25 +20,12 @@ Protocol protocolOf(StimulusSet stimuli, std::vector<SessionPlan> sessions) {
     return p;
 }
 
-std::vector<TrialRecord> runWhole(const Protocol& p, const Participant& participant,
-                                  const ObserverSettings& settings = {}) {
-    Experiment experiment{p, participant};
-    const SimulatedObserver observer{settings, p, participant};
-    std::vector<TrialRecord> records;
-    while (!experiment.isDone()) {
-        const Answer answer = observer.answer(experiment);
-        EXPECT_EQ(experiment.refusal(answer), "");
-        records.push_back(experiment.take(answer));
-    }
-    return records;
-}
-
 const Protocol patterns =
     protocolOf(PatternSet{2}, {{.name = "training", .isTraining = true, .task = StudyTask::explore},
                                {.name = "main", .breakBeforeSeconds = 120.0}});
 
 TEST(Experiment, TrainingShowsEveryPatternAndTheMainSessionEachOnce) {
-    const auto records = runWhole(patterns, {});
+    const auto records = answered(patterns);
     ASSERT_EQ(records.size(), 28u + 28u);
     std::map<std::string, int> felt, asked;
     for (const auto& [trial, answer] : records)
@@ -84,7 +70,7 @@ TEST(Experiment, ABreakLiesBetweenConditionsAsBeforeSessions) {
     p.conditions.back().name = "other";
     p.conditionBreakSeconds = 60.0;
     std::vector<double> rests;
-    for (const auto& record : runWhole(p, {}))
+    for (const auto& record : answered(p))
         if (record.trial.number == 1) rests.push_back(record.trial.restSeconds);
     EXPECT_EQ(rests, (std::vector<double>{0.0, 120.0, 60.0, 120.0}));
 }
@@ -95,27 +81,12 @@ TEST(Experiment, OrdersDifferByParticipantAndRepeatBySeed) {
         for (const auto& r : records) all.push_back(r.trial.stimulus);
         return all;
     };
-    EXPECT_EQ(stimuli(runWhole(patterns, {"P01", 1})), stimuli(runWhole(patterns, {"P01", 1})));
-    EXPECT_NE(stimuli(runWhole(patterns, {"P01", 1})), stimuli(runWhole(patterns, {"P02", 2})));
-}
-
-TEST(Experiment, GoesOnAfterEveryCutAsIfThereHadBeenNone) {
-    const auto whole = runWhole(patterns, {});
-    for (std::size_t cut = 0; cut <= whole.size(); cut += 7) {
-        Experiment experiment{patterns, {}};
-        for (std::size_t i = 0; i < cut; ++i) ASSERT_EQ(experiment.redo(whole[i]), "");
-        const SimulatedObserver observer{{}, patterns, {}};
-        for (std::size_t i = cut; i < whole.size(); ++i) {
-            const auto record = experiment.take(observer.answer(experiment));
-            EXPECT_EQ(record.trial.stimulus, whole[i].trial.stimulus);
-            EXPECT_EQ(record.answer, whole[i].answer);
-        }
-        EXPECT_TRUE(experiment.isDone());
-    }
+    EXPECT_EQ(stimuli(answered(patterns, {"P01", 1})), stimuli(answered(patterns, {"P01", 1})));
+    EXPECT_NE(stimuli(answered(patterns, {"P01", 1})), stimuli(answered(patterns, {"P02", 2})));
 }
 
 TEST(Experiment, RecordsOfAnotherStudyAreRefused) {
-    const auto whole = runWhole(patterns, {});
+    const auto whole = answered(patterns);
     Experiment experiment{patterns, {"P02", 2}};
     for (std::size_t i = 0; i < 28; ++i) ASSERT_EQ(experiment.redo(whole[i]), "");
     EXPECT_TRUE(experiment.redo(whole[28]).starts_with("expected the stimulus "))
@@ -143,7 +114,7 @@ TEST(Experiment, FreeTouchesAreCountedNotListed) {
         GridSet{7, 5},
         {{.name = "training", .isTraining = true, .task = StudyTask::explore, .fewestTouches = 100},
          {.name = "main", .task = StudyTask::locate, .repetitions = 5}});
-    const auto records = runWhole(p, {});
+    const auto records = answered(p);
     EXPECT_EQ(records.size(), 100u + 175u);
     EXPECT_TRUE(records.front().answer.place);
     EXPECT_TRUE(callsOf(p, records.front()).starts_with("stimulus phantom --at "))
@@ -162,7 +133,7 @@ TEST(Experiment, BothButtonOrdersOfEveryConditionAppearOncePerBlock) {
         CallSet{{{"pair", {"a", "b", "c"}}, {"size", {"1", "2", "3"}}, {"height", {"1", "2", "3"}}},
                 "render drop {pair} {alternative}"},
         {main});
-    const auto records = runWhole(p, {});
+    const auto records = answered(p);
     ASSERT_EQ(records.size(), 108u);
     std::map<std::pair<std::string, std::string>, int> seen;
     for (std::size_t i = 0; i < 54; ++i) ++seen[{records[i].trial.stimulus, records[i].trial.parts.front()}];
@@ -213,7 +184,7 @@ TEST(Experiment, AdjustmentsMayStartAnywhereByTheSeed) {
     const auto p =
         protocolOf(CallSet{{{"pair", {"a", "b"}}}, "render {pair} {alternative} {level_db}"}, {matching});
     std::set<double> starts;
-    for (const auto& record : runWhole(p, {})) {
+    for (const auto& record : answered(p)) {
         const double step = (record.trial.levelDb + 10.0) / 2.0;
         EXPECT_EQ(step, std::round(step));
         EXPECT_GE(step, 0.0);
@@ -221,7 +192,7 @@ TEST(Experiment, AdjustmentsMayStartAnywhereByTheSeed) {
         starts.insert(record.trial.levelDb);
     }
     EXPECT_GT(starts.size(), 5u);
-    EXPECT_EQ(runWhole(p, {})[7].trial.levelDb, runWhole(p, {})[7].trial.levelDb);
+    EXPECT_EQ(answered(p)[7].trial.levelDb, answered(p)[7].trial.levelDb);
 }
 
 TEST(Experiment, LevelsOfExpertsHoldForTheAlternativeThatTheyMoved) {
@@ -242,7 +213,7 @@ TEST(Experiment, LevelsOfExpertsHoldForTheAlternativeThatTheyMoved) {
     EXPECT_EQ(p.levels[0].levelDb, -3.0) << "everybody counts once";
     EXPECT_EQ(p.levels[0].participants, 2u);
     EXPECT_EQ(levelsFault(p), "");
-    for (const auto& record : runWhole(p, {}))
+    for (const auto& record : answered(p))
         for (std::size_t i = 0; i < 2; ++i)
             EXPECT_EQ(record.trial.partLevelsDb[i], record.trial.parts[i] == "SV"  ? 1.0
                                                     : record.trial.stimulus == "a" ? -3.0
@@ -275,7 +246,7 @@ TEST(Experiment, RatingsWaitForEveryObject) {
     EXPECT_EQ(progress.plays(), 3);
     EXPECT_NE(experiment.refusal({.scores = {50, 50}}), "");
     EXPECT_NE(experiment.refusal({.scores = {50, 50, 101}}), "");
-    const auto records = runWhole(p, {});
+    const auto records = answered(p);
     ASSERT_EQ(records.size(), 80u);
     int breaks = 0;
     for (const auto& r : records) breaks += r.trial.restSeconds > 0.0;
@@ -293,16 +264,6 @@ TEST(Experiment, WordsMayBeEmptyWhereTheProtocolSaysSo) {
         EXPECT_EQ(experiment.refusal({.response = std::string(4001, 'x')}),
                   "expected at most 4000 bytes of words");
     }
-}
-
-TEST(Experiment, PlaysCanBeLimited) {
-    const SessionPlan session{.mostPlays = 2};
-    TrialProgress progress{session, {}};
-    progress.played(0);
-    EXPECT_TRUE(progress.canPlay(0));
-    progress.played(0);
-    EXPECT_FALSE(progress.canPlay(0));
-    EXPECT_FALSE(progress.canPlay(1));
 }
 
 TEST(Experiment, APlayThatWasLostIsOwedAndCountsForNothing) {
@@ -329,31 +290,13 @@ TEST(Staircase, TwoDownOneUpFindsTheLevelOf71PercentCorrect) {
     plan.startDb = 10.0;
     plan.reversals = 60;
     plan.mostTrials = 5000;
-    Staircase stairs{plan};
+    Staircase stairs{plan, plan.startDb};
     SeededRandom random{5};
     constexpr double noiseDb = 3.0; // of either of two levels: 70.7 % at 0.545 sqrt(2) noise
     while (!stairs.isDone())
         stairs.answer(stairs.levelDb() + noiseDb * random.normal() > noiseDb * random.normal());
-    EXPECT_NEAR(test::thresholdDb(stairs), 0.545 * std::sqrt(2.0) * noiseDb, 0.5);
+    EXPECT_NEAR(thresholdDb(stairs), 0.545 * std::sqrt(2.0) * noiseDb, 0.5);
     EXPECT_EQ(stairs.reversals().size(), 60u);
-}
-
-TEST(Staircase, EndsAndIsDoneAgainByTheSameAnswers) {
-    SessionPlan main{.name = "main",
-                     .task = StudyTask::choose,
-                     .alternatives = {{"standard"}, {"stronger"}},
-                     .staircase = StaircasePlan{.alternative = "stronger"}};
-    const auto p = protocolOf(GridSet{1, 1}, {main});
-    const auto records = runWhole(p, {});
-    EXPECT_GT(records.size(), 8u);
-    EXPECT_LE(records.size(), 200u);
-    Experiment experiment{p, {}};
-    for (const auto& record : records) {
-        EXPECT_EQ(experiment.trial().levelDb, record.trial.levelDb);
-        ASSERT_EQ(experiment.redo(record), "");
-    }
-    EXPECT_TRUE(experiment.isDone());
-    EXPECT_TRUE(isCorrect(p, records.front()).has_value());
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "Lab/Study/Places.h"
 #include "Stimuli/SeededRandom.h"
 #include "Support/Has.h"
+#include "Support/Studies.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -97,8 +98,7 @@ TEST(PlaceErrors, OurOwnRowsHaveTheirGridInTheCall) {
     std::string text = head + "P1,a,training,explore,,,,0.5,0.5,stimulus phantom --at 0.5\n" +
                        "P1,a,main,locate,\"2,1\",1,2,0.225,0.85," + call +
                        "P1,b,main,locate,\"1,4\",4,1,1,0.5,stimulus phantom --grid 4x2\n";
-    const NamedText file{text, "t.csv"};
-    const auto read = readPlaces({&file, 1});
+    const auto read = readOne(readPlaces, text, "t.csv");
     ASSERT_TRUE(read) << read.error;
     ASSERT_EQ(read.value.conditions.size(), 2u);
     EXPECT_EQ(read.value.conditions[0].trials,
@@ -110,8 +110,7 @@ TEST(PlaceErrors, OurOwnRowsHaveTheirGridInTheCall) {
     for (const char* wrong : {"--grid 4x2", "stimulus phantom --at 0.5", "x --grid 4 --seconds 1",
                               "x --grid 4x99", "x --grid 2x1"}) {
         const std::string other = head + "P1,a,main,locate,\"2,3\",3,2,0.2,0.8," + wrong + "\n";
-        const NamedText bad{other, "t.csv"};
-        const auto refused = readPlaces({&bad, 1});
+        const auto refused = readOne(readPlaces, other, "t.csv");
         if (std::string_view{wrong} == "--grid 4x2")
             EXPECT_TRUE(refused) << refused.error;
         else

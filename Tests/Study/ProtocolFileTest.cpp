@@ -2,9 +2,8 @@
 // Protocols as JSON, and the thesis' studies as protocols.
 #include "Lab/Files/ProtocolFile.h"
 #include "Lab/Files/Words.h"
-#include "Lab/Study/Experiment.h"
-#include "Lab/Study/SimulatedObserver.h"
 #include "Support/Has.h"
+#include "Support/Studies.h"
 #include <gtest/gtest.h>
 #include <map>
 
@@ -24,30 +23,28 @@ TEST(ProtocolFile, TheShortestProtocolHasDefaults) {
 }
 
 TEST(ProtocolFile, FaultsAreNamedByTheirField) {
-    const auto fault = [](const std::string& text) { return readProtocol(text, "p.json").error; };
-    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "repetitions": 0 }] })"),
-              "p.json: sessions[0].repetitions: expected 1 to 1000, found 0");
-    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "guess" }] })"),
+    const auto readError = [](const std::string& text) { return readProtocol(text, "p.json").error; };
+    const auto fault = [&](const std::string& session, const std::string& before = oneGrid) {
+        return readError(head + before + R"("sessions": [{ "name": "main")" + session + "}] }");
+    };
+    EXPECT_EQ(fault(R"(, "repetitions": 0)"), "p.json: sessions[0].repetitions: expected 1 to 1000, found 0");
+    EXPECT_EQ(fault(R"(, "task": "guess")"),
               "p.json: sessions[0].task: expected one of explore, identify, locate, choose, rate, adjust, "
               "estimate, describe, found \"guess\"");
-    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "order": "random", "sound": 1 }] })"),
-              "p.json: sessions[0]: unknown field \"sound\"");
-    EXPECT_EQ(fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate" }] })"),
+    EXPECT_EQ(fault(R"(, "order": "random", "sound": 1)"), "p.json: sessions[0]: unknown field \"sound\"");
+    EXPECT_EQ(fault(R"(, "task": "rate")"),
               "p.json: sessions[0].scales: expected them of the task rate, and of no other");
-    EXPECT_EQ(
-        fault(
-            head +
-            R"("conditions": [{ "name": "A", "stimuli": "grid", "columns": 17, "rows": 3 }], "sessions": [{ "name": "main" }] })"),
-        "p.json: conditions[0].columns: expected 1 to 16, found 17");
-    EXPECT_EQ(
-        fault(head + oneGrid + R"("sessions": [{ "name": "main", "task": "rate", "scales": ["x"] }] })"),
-        "p.json: scales: expected names that no other column of a trial file has, found \"x\"");
-    EXPECT_EQ(fault(head + oneGrid + R"("words": "../ko.json", "sessions": [{ "name": "main" }] })"),
+    EXPECT_EQ(fault("", R"("conditions": [{ "name": "A", "stimuli": "grid", "columns": 17, "rows": 3 }], )"),
+              "p.json: conditions[0].columns: expected 1 to 16, found 17");
+    EXPECT_EQ(fault(R"(, "task": "rate", "scales": ["x"])"),
+              "p.json: scales: expected names that no other column of a trial file has, found \"x\"");
+    EXPECT_EQ(fault("", oneGrid + R"("words": "../ko.json", )"),
               "p.json: words: expected a name, or a file in the folder or below");
-    EXPECT_EQ(fault(R"({ "physvib_protocol": 2 })"),
+    EXPECT_EQ(readError(R"({ "physvib_protocol": 2 })"),
               "p.json: physvib_protocol: made for a newer PhysVib: expected a version up to 1, found 2");
-    EXPECT_EQ(fault("{"), "p.json: line 1, column 2: syntax error while parsing object key - unexpected end "
-                          "of input; expected string literal");
+    EXPECT_EQ(readError("{"),
+              "p.json: line 1, column 2: syntax error while parsing object key - unexpected end "
+              "of input; expected string literal");
 }
 
 TEST(ProtocolFile, AWorldIsASceneThatIsWatchedAndMayHaveHands) {
@@ -142,23 +139,11 @@ TEST(ProtocolFile, VersionsAsPublishedMakeEveryChangeThatTheListKnows) {
     EXPECT_TRUE(deviationsOf(changed).empty()) << "of a changed one nobody knows what holds";
 }
 
-TEST(ProtocolFile, TheHashChangesWithEveryField) {
-    Protocol p = builtInProtocols().front();
-    const std::string hash = protocolHash(p);
-    EXPECT_EQ(hash.size(), 16u);
-    p.seed = 2;
-    EXPECT_NE(protocolHash(p), hash);
-}
-
 /// Trials of a participant's main sessions, by condition.
 std::map<std::string, int> mainTrials(const Protocol& p) {
-    Experiment experiment{p, {}};
-    const SimulatedObserver observer{{}, p, {}};
     std::map<std::string, int> counts;
-    while (!experiment.isDone()) {
-        const auto record = experiment.take(observer.answer(experiment));
-        if (!p.sessions[record.trial.session].isTraining) ++counts[p.conditions[record.trial.condition].name];
-    }
+    for (const auto& [trial, answer] : answered(p))
+        if (!p.sessions[trial.session].isTraining) ++counts[p.conditions[trial.condition].name];
     return counts;
 }
 

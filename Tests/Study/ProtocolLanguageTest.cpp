@@ -2,20 +2,13 @@
 // Protocols of one's own: variables that follow the level, weighted staircases, levels that can be reached,
 // equal energy, the schema; and the times of a study.
 #include "Core/Actuators/Exposure.h"
-#include "Io/Disk/ReadFile.h"
-#include "Lab/Files/ProtocolFile.h"
-#include "Lab/Files/StudyCsv.h"
-#include "Lab/Files/TrialLog.h"
-#include "Lab/Study/Experiment.h"
-#include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/StudyPlan.h"
 #include "Lab/Study/StudyRun.h"
 #include "Lab/Study/Summaries.h"
 #include "Stimuli/SeededRandom.h"
-#include "Study/StaircaseThreshold.h"
 #include "Support/FileTesting.h"
 #include "Support/Has.h"
-#include "TestPlaces.h"
+#include "Support/Studies.h"
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -119,10 +112,10 @@ TEST(ProtocolLanguage, AWeightedStaircaseComesToThreeQuarters) {
     constexpr int runs = 60;
     for (int run = 0; run < runs; ++run) {
         SeededRandom random{1, "weighted " + std::to_string(run)};
-        Staircase stairs{plan};
+        Staircase stairs{plan, plan.startDb};
         while (!stairs.isDone())
             stairs.answer(random.chance(0.5 + 0.5 / (1.0 + std::exp(-(stairs.levelDb() - 5.0)))));
-        sum += test::thresholdDb(stairs);
+        sum += thresholdDb(stairs);
     }
     EXPECT_NEAR(sum / runs, 5.0, 0.25) << "where 75 % are right";
 }
@@ -174,19 +167,11 @@ TEST(ProtocolLanguage, EqualWeightedLevelsAreThoseOfTheWeightedSamples) {
 
 TEST(ProtocolLanguage, TheSchemaHasEveryFieldThatIsReadAndItsRange) {
     const std::string schema = protocolSchema();
-    for (const char* words :
-         {"\"physvib_protocol\"", "\"variables\"", "\"at_0_db\"", "\"up_ratio\"", "\"interval_s\"",
-          "\"feedback\"", "\"instruction\"", "\"stimuli\"", "\"additionalProperties\": false",
-          "\"latin-square\"", "\"estimate\"", "\"if\"", "\"then\""})
-        EXPECT_TRUE(has(schema, words));
+    EXPECT_TRUE(hasAll(schema, {"\"physvib_protocol\"", "\"variables\"", "\"at_0_db\"", "\"up_ratio\"",
+                                "\"interval_s\"", "\"feedback\"", "\"instruction\"", "\"stimuli\"",
+                                "\"additionalProperties\": false", "\"latin-square\"", "\"estimate\"",
+                                "\"if\"", "\"then\""}));
     EXPECT_TRUE(readProtocol("{\"$schema\": \"protocol.schema.json\", " + frequencies().substr(1), "own"));
-}
-
-/// An example of the pages.
-Protocol example(const std::string& name) {
-    const auto read = loadProtocol(PHYSVIB_SOURCE_DIR "/Docs/protocol-examples/" + name + ".json");
-    EXPECT_TRUE(read) << read.error;
-    return read.value;
 }
 
 std::vector<std::string> wordsOf(const Protocol& protocol, const TrialRecord& record) {
@@ -210,15 +195,13 @@ TEST(ProtocolLanguage, ConstantStimuliMoveOneAlternativeAndHaveARightOne) {
         EXPECT_EQ(trial.partLevelsDb[0], trial.partLevelsDb[1]) << "both rove together";
         EXPECT_LE(std::abs(trial.partLevelsDb[0]), 3.0);
         roved.insert(trial.partLevelsDb[0]);
-        Answer answer;
-        answer.response = trial.number % 4 ? "higher" : "standard";
-        const auto record = experiment.take(answer);
+        const auto record = experiment.take({.response = trial.number % 4 ? "higher" : "standard"});
         EXPECT_EQ(isCorrect(protocol, record), trial.number % 4 != 0);
         rows += trialRow(protocol, {}, record);
     }
     EXPECT_GT(roved.size(), 20u);
+    EXPECT_FALSE(readOne(readLevels, rows)) << "nothing is adaptive";
     const NamedText file{rows, "rows.csv"};
-    EXPECT_FALSE(readLevels({&file, 1})) << "nothing is adaptive";
     const auto answers = readLevelAnswers({&file, 1}, {"stimulus", "correct", false});
     ASSERT_TRUE(answers) << answers.error;
     EXPECT_EQ(answers.value.conditions.front().trials.size(), 100u);
@@ -228,18 +211,12 @@ TEST(ProtocolLanguage, ConstantStimuliMoveOneAlternativeAndHaveARightOne) {
     EXPECT_EQ(*levels.rbegin(), 3.0);
 }
 
-/// A study of an example by the simulated observer, which `look` sees trial by trial; its rows are read back.
-std::vector<TrialRecord> ranThrough(const Protocol& protocol,
-                                    const std::function<void(const Experiment&)>& look = {}) {
+/// A study of an example by the simulated observer; its rows are read back.
+std::vector<TrialRecord> ranThrough(const Protocol& protocol) {
     EXPECT_EQ(readProtocol(protocolJson(protocol), "again").value, protocol);
-    Experiment experiment{protocol, {}}, again{protocol, {}};
-    const SimulatedObserver observer{ObserverSettings{}, protocol, {}};
-    std::string rows = trialHeader(protocol, {}, "0");
-    std::vector<TrialRecord> records;
-    while (!experiment.isDone()) {
-        if (look) look(experiment);
-        rows += trialRow(protocol, {}, records.emplace_back(experiment.take(observer.answer(experiment))));
-    }
+    const auto records = answered(protocol);
+    const std::string rows = trialFile(protocol, {}, records);
+    Experiment again{protocol, {}};
     for (const TrialRecord& record : readTrialLog(rows, "rows.csv", protocol, {}).value.records)
         EXPECT_EQ(again.redo(record), "");
     EXPECT_TRUE(again.isDone()) << rows;
@@ -260,14 +237,11 @@ TEST(ProtocolLanguage, AQuestionnaireIsAskedOncePerConditionAndFeelsNothing) {
 }
 
 TEST(ProtocolLanguage, PointsAreWholeNumbers) {
-    ranThrough(example("likert-seven"), [](const Experiment& experiment) {
-        for (const auto& [score, fits] :
-             {std::pair{0.0, false}, {1.0, true}, {3.5, false}, {7.0, true}, {8.0, false}}) {
-            Answer answer;
-            answer.scores = {score, 4.0};
-            EXPECT_EQ(experiment.refusal(answer).empty(), fits) << score;
-        }
-    });
+    const Protocol protocol = example("likert-seven");
+    ranThrough(protocol);
+    for (const auto& [score, fits] :
+         {std::pair{0.0, false}, {1.0, true}, {3.5, false}, {7.0, true}, {8.0, false}})
+        EXPECT_EQ(Experiment(protocol, {}).refusal({.scores = {score, 4.0}}).empty(), fits) << score;
 }
 
 TEST(ProtocolLanguage, ATrialThatRunsOutOfTimeHasNoOtherAnswerAndMovesNoLevel) {
@@ -298,8 +272,7 @@ TEST(ProtocolLanguage, ATrialThatRunsOutOfTimeHasNoOtherAnswerAndMovesNoLevel) {
     const auto log = readTrialLog(rows, "rows.csv", steps, {});
     for (const TrialRecord& record : log.value.records) ASSERT_EQ(again.redo(record), "");
     EXPECT_EQ(log.value.records.size(), 299u) << "200 answers";
-    const NamedText file{rows, "rows.csv"};
-    const auto levels = readLevels({&file, 1});
+    const auto levels = readOne(readLevels, rows, "rows.csv");
     EXPECT_EQ(levels.value.conditions.front().trials.size(), 200u);
     EXPECT_EQ(levels.value.warnings,
               std::vector<std::string>{"rows.csv: left out: 99 trials ran out of time, without an answer"});
@@ -373,9 +346,7 @@ TEST(ProtocolLanguage, PracticeEndsAfterSoManyRightAnswersInARow) {
         ASSERT_TRUE(shown == "yes" || shown == "no") << shown;
         EXPECT_TRUE(has(wordsOf(protocol, {experiment.trial(), {}})[0],
                         shown == "yes" ? "--level-g 0.05" : "--level-g 0.001"));
-        Answer answer;
-        answer.response = trials == 3 ? (shown == "yes" ? "no" : "yes") : shown;
-        experiment.take(answer);
+        experiment.take({.response = trials != 3 ? shown : shown == "yes" ? "no" : "yes"});
     }
     EXPECT_EQ(trials, 4 + 6) << "the fourth answer was wrong";
     EXPECT_EQ(experiment.sessionTrials(), 80);
@@ -400,18 +371,15 @@ TEST(ProtocolLanguage, InterleavedStaircasesAreMixedAndEachGoesItsOwnWay) {
         changes += !records.empty() && records.back().trial.staircase != trial.staircase ? 1 : 0;
         const bool isRight = random.chance(trial.levelDb > 3.0 ? 0.95 : 0.6);
         own.answer(isRight);
-        Answer answer;
-        answer.response = isRight ? "stronger" : "standard";
-        records.push_back(experiment.take(answer));
+        records.push_back(experiment.take({.response = isRight ? "stronger" : "standard"}));
         rows += trialRow(protocol, {}, records.back());
     }
     EXPECT_TRUE(alone[0].isDone() && alone[1].isDone());
     EXPECT_GT(changes, records.size() / 4) << "trials are mixed";
-    const NamedText file{rows, "rows.csv"};
-    const auto levels = readLevels({&file, 1});
+    const auto levels = readOne(readLevels, rows, "rows.csv");
     ASSERT_TRUE(levels) << levels.error;
     const auto summary = summariseLevels(levels.value.conditions.front().trials).front();
-    EXPECT_NEAR(summary.estimate, 0.5 * (test::thresholdDb(alone[0]) + test::thresholdDb(alone[1])), 0.5);
+    EXPECT_NEAR(summary.estimate, 0.5 * (thresholdDb(alone[0]) + thresholdDb(alone[1])), 0.5);
     Experiment resumed{protocol, {}};
     const auto log = readTrialLog(rows, "rows.csv", protocol, {});
     ASSERT_TRUE(log) << log.error;
@@ -431,9 +399,7 @@ TEST(ProtocolLanguage, AModulusComesFirstInEachTrial) {
         ASSERT_EQ(calls.size(), 2u);
         EXPECT_TRUE(has(calls[0], "--level-g 0.2"));
         EXPECT_TRUE(has(calls[1], "--level-g " + trial.stimulus));
-        Answer answer;
-        answer.value = 10.0;
-        experiment.take(answer);
+        experiment.take({.value = 10.0});
     }
     double plays = 0.0;
     for (const PlannedTrials& planned : plannedTrials(protocol)) plays += planned.count;
@@ -512,7 +478,7 @@ TEST_F(TimesOfAStudy, OtherOutputsAreRefusedAndTheTrialFileHasNoTimes) {
     EXPECT_EQ(times.value[2].trials, 1);
     EXPECT_EQ(times.value[2].language, "ko");
     for (const StudyMoment& m : times.value) EXPECT_GT(secondsOf(m.timeUtc), 1.7e9) << m.timeUtc;
-    EXPECT_FALSE(has(readFile(run().trialFile().string(), 1'000'000).value, "5 6"));
+    EXPECT_FALSE(has(contentOf(run().trialFile()), "5 6"));
 }
 
 TEST_F(TimesOfAStudy, ABreakGoesOnWhileTheWindowIsClosedAndAStudyEndsOnce) {

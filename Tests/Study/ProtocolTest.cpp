@@ -25,12 +25,13 @@ Protocol gridProtocol() {
     return p;
 }
 
+std::string fault(auto change) {
+    Protocol p = gridProtocol();
+    change(p);
+    return validate(p);
+}
+
 TEST(Protocol, FaultsAreNamedByTheirField) {
-    const auto fault = [](auto change) {
-        Protocol p = gridProtocol();
-        change(p);
-        return validate(p);
-    };
     EXPECT_EQ(fault([](Protocol&) {}), "");
     EXPECT_EQ(fault([](Protocol& p) { p.sessions[0].task = StudyTask::choose; }),
               "sessions[0].alternatives: expected two or more, found 0");
@@ -108,11 +109,6 @@ TEST(Protocol, CallsRenderAndReadInTheirFolder) {
 }
 
 TEST(Protocol, NamesFilesInItsFolderOnly) {
-    const auto fault = [](auto change) {
-        Protocol p = gridProtocol();
-        change(p);
-        return validate(p);
-    };
     EXPECT_EQ(fault([](Protocol& p) {
                   p.sounds = {{80.0, "synthetic-1"}, {349.0, "my sounds/ball.wav"}};
               }),
@@ -350,14 +346,6 @@ TEST(StimulusJob, FaultsNameTheWord) {
     EXPECT_EQ(faultText({PatternJob{"A-100"}, "phone4", 205.0, 2000.0}), "--level-g: expected 1e-06 to 1000");
 }
 
-TEST(StimulusJob, IsEqualIfAllOfItIs) {
-    const StimulusJob one{PhantomJob{FieldPlace{0.5, 0.5}}};
-    StimulusJob other = one;
-    EXPECT_EQ(one, other);
-    std::get<PhantomJob>(other.what).law = PanningLaw::log;
-    EXPECT_NE(one, other);
-}
-
 // The page that users read names every task of the table.
 
 TEST(StudyTasks, EachHasALineInTheTableOfProtocols) {
@@ -365,12 +353,6 @@ TEST(StudyTasks, EachHasALineInTheTableOfProtocols) {
     ASSERT_TRUE(studies) << studies.error;
     for (const auto& task : studyTasks)
         EXPECT_TRUE(has(studies.value, "\n| `" + std::string{task.name} + "` | ")) << task.name;
-}
-
-TEST(StudyTasks, NamesAreFoundAndOthersAreNot) {
-    for (const auto& task : studyTasks) EXPECT_EQ(studyTaskNamed(task.name), &describe(task.task));
-    EXPECT_EQ(studyTaskNamed("count"), nullptr);
-    EXPECT_EQ(answerOf("").has_value(), false);
 }
 
 } // namespace

@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Psychometric functions against R's glm and simulated observers, intervals by how often they hold, QUEST+
-// against a staircase.
+// Psychometric functions against R's glm and simulated observers, intervals by how often they hold.
 #include "Lab/Study/Psychometric.h"
-#include "Lab/Study/Experiment.h"
-#include "Lab/Study/QuestMethod.h"
 #include "Lab/Study/Summaries.h"
 #include "Stimuli/SeededRandom.h"
-#include "Study/StaircaseThreshold.h"
 #include <cmath>
 #include <gtest/gtest.h>
-#include <iostream>
 #include <utility>
 
 namespace physvib {
@@ -52,22 +47,6 @@ std::vector<LevelCount> observed(const PsychometricFunction& truth, std::uint64_
         counts.push_back(count);
     }
     return counts;
-}
-
-TEST(Psychometric, SimulatedObserversAreFoundWithoutBias) {
-    SeededRandom random{7, "observers"};
-    for (const auto shape : shapes) {
-        std::vector<double> errors;
-        for (int observer = 0; observer < 500 / 3; ++observer) {
-            const PsychometricFunction truth{shape, 20.0 * random.uniform(), 2.0 + 6.0 * random.uniform(),
-                                             0.5, 0.04 * random.uniform()};
-            const auto fit = fitPsychometric(observed(truth, 60, random), {shape});
-            if (!fit.fault.empty()) continue;
-            errors.push_back((fit.function.threshold - truth.threshold) / truth.width);
-        }
-        EXPECT_TRUE(std::abs(Moments{errors}.mean) < 0.02 && errors.size() > 160) << errors.size();
-        std::cout << "bias " << 100.0 * Moments{errors}.mean << " % of the width\n";
-    }
 }
 
 TEST(Psychometric, WhatCannotBeFittedIsNamed) {
@@ -119,21 +98,6 @@ TEST(Psychometric, IntervalsOfFittedParticipantsHoldAsOftenAsTheySay) {
     }
     EXPECT_LT(std::abs(off), 0.02 * widths);
     EXPECT_NEAR(held, 0.95 * studies, 0.02 * studies);
-    std::cout << "bias " << 100.0 * off / widths << " % of the width, intervals hold in "
-              << 100.0 * held / studies << " %\n";
-}
-
-TEST(Moments, IntervalsOfTwelveParticipantsHoldAsOftenAsTheySay) {
-    SeededRandom random{3, "studies"};
-    int held = 0;
-    constexpr int studies = 500;
-    for (int study = 0; study < studies; ++study) {
-        std::vector<double> thresholds(12);
-        for (double& threshold : thresholds) threshold = 5.0 + random.normal();
-        const auto interval = Moments(thresholds);
-        held += interval.least() < 5.0 && 5.0 < interval.most();
-    }
-    EXPECT_NEAR(held, 0.95 * studies, 0.02 * studies);
 }
 
 TEST(Moments, FewParticipantsHaveAnIntervalToo) {
@@ -151,96 +115,17 @@ TEST(Moments, FewParticipantsHaveAnIntervalToo) {
     EXPECT_NEAR(normalQuantile(1e-6), -4.753424308822899, 1e-13);
 }
 
-QuestPlan questPlanOfTests() {
-    QuestPlan plan;
-    for (int i = 0; i <= 60; ++i) plan.levels.push_back(0.5 * i);
-    for (int i = 0; i <= 40; ++i) plan.thresholds.push_back(0.5 * i + 2.0);
-    plan.widths = {2, 4, 6, 8, 12};
-    plan.lapses = {0.0, 0.02, 0.05};
-    return plan;
-}
-
-TEST(QuestPlus, NeedsTwoThirdsOfAStaircasesTrialsForItsError) {
-    SeededRandom random{11, "observers"};
-    double questSquares = 0.0, staircaseSquares = 0.0;
-    int staircaseTrials = 0, questTrials = 0;
-    for (int observer = 0; observer < 150; ++observer) {
-        const PsychometricFunction truth{shapes[2], 6.0 + 10.0 * random.uniform(),
-                                         3.0 + 5.0 * random.uniform(), 0.5, 0.02};
-        const double wanted = truth.levelOf(std::sqrt(0.5)); // what two down, one up aims at
-        Staircase staircase{StaircasePlan{.alternative = "a",
-                                          .startDb = 25.0,
-                                          .stepDb = 4.0,
-                                          .leastStepDb = 1.0,
-                                          .leastDb = 0.0,
-                                          .mostDb = 30.0,
-                                          .down = 2,
-                                          .reversals = 12}};
-        int trials = 0;
-        for (; !staircase.isDone(); ++trials)
-            staircase.answer(random.chance(truth.probability(staircase.levelDb())));
-        QuestPlus quest{questPlanOfTests()};
-        while (quest.trials() < 2 * trials / 3) quest.answer(random.chance(truth.probability(quest.level())));
-        staircaseTrials += trials, questTrials += quest.trials();
-        staircaseSquares += std::pow(test::thresholdDb(staircase) - wanted, 2);
-        questSquares += std::pow(quest.estimate().levelOf(std::sqrt(0.5)) - wanted, 2);
-    }
-    EXPECT_LE(questTrials, 2 * staircaseTrials / 3);
-    EXPECT_LE(questSquares, staircaseSquares);
-    std::cout << "error, dB: QUEST+ " << std::sqrt(questSquares / 150) << " in " << questTrials / 150
-              << " trials, staircase " << std::sqrt(staircaseSquares / 150) << " in " << staircaseTrials / 150
-              << '\n';
-}
-
-TEST(QuestPlus, BeliefGetsNarrower) {
-    QuestPlus quest{questPlanOfTests()};
-    const double before = quest.thresholdDeviation();
-    for (int i = 0; i < 30; ++i) quest.answer(quest.level() > 10.0 || i % 2);
-    EXPECT_LT(quest.thresholdDeviation(), 0.3 * before);
-    EXPECT_NEAR(quest.estimate().threshold, 10.0, 3.0);
-}
-
 TEST(PowerLaw, ExponentAndFactorComeBack) {
-    std::vector<MagnitudeTrial> trials;
-    for (const double level : {0.1, 0.3, 1.0, 3.0}) trials.push_back({level, 4.0 * std::pow(level, 0.55)});
+    std::vector<LevelAnswer> trials;
+    for (const double level : {0.1, 0.3, 1.0, 3.0})
+        trials.push_back({"P", level, 4.0 * std::pow(level, 0.55)});
     const auto law = fitPowerLaw(trials);
     EXPECT_NEAR(law.exponent, 0.55, 1e-12);
     EXPECT_NEAR(law.factor, 4.0, 1e-12);
     EXPECT_NEAR(law.determination, 1.0, 1e-12);
     EXPECT_EQ(fitPowerLaw(std::span{trials}.first(1)).fault, "expected magnitudes of two or more levels");
-    trials[0].magnitude = 0.0;
+    trials[0].answer = 0.0;
     EXPECT_EQ(fitPowerLaw(trials).fault, "expected levels and magnitudes > 0");
-}
-
-/// Trials of an observer at 8 levels.
-std::vector<LevelCount> answered(const PsychometricFunction& observer, SeededRandom& random) {
-    std::vector<LevelCount> all;
-    for (int level = 0; level < 8; ++level) {
-        LevelCount& count = all.emplace_back(LevelCount{1.5 * level, 0, 20});
-        for (int trial = 0; trial < 20; ++trial)
-            count.hits += random.chance(observer.probability(count.level));
-    }
-    return all;
-}
-
-TEST(Psychometric, IntervalsOfThresholdsHold) {
-    SeededRandom random{3, "coverage"};
-    for (const int people : {6, 12}) {
-        int held = 0;
-        for (int study = 0; study < 100; ++study) {
-            std::vector<double> thresholds;
-            for (int person = 0; person < people; ++person) {
-                const PsychometricFunction truth{PsychometricShape::weibull, 6.0 + 1.5 * random.normal(), 6.0,
-                                                 0.5, 0.02};
-                const auto fit = fitPsychometric(answered(truth, random), {truth.shape, 0.5, 0.02});
-                if (fit.fault.empty()) thresholds.push_back(fit.function.threshold);
-            }
-            const auto interval = Moments(thresholds);
-            held += interval.least() <= 6.0 && 6.0 <= interval.most();
-        }
-        std::cout << held << " of 100\n";
-        EXPECT_GE(held, 88) << people << " people: 95 of 100, of which 88 are rare";
-    }
 }
 
 } // namespace

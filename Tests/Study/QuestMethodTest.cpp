@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // QUEST+ as a session of a protocol: what simulated observers' rows come to, beside a staircase's.
-#include "Lab/Study/Experiment.h"
-#include "Lab/Study/SimulatedObserver.h"
 #include "Lab/Study/Summaries.h"
+#include "Support/Studies.h"
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <iostream>
 #include <iterator>
 
 namespace physvib {
@@ -96,9 +94,6 @@ TEST(QuestMethod, ErrsNoMoreThanAStaircaseWithTwoThirdsOfItsTrials) {
     }
     EXPECT_LE(questTrials, 2 * stairsTrials / 3);
     EXPECT_LE(questSquares, stairsSquares);
-    std::cout << "error, dB: QUEST+ " << std::sqrt(questSquares / observers) << " in "
-              << questTrials / observers << " trials, staircase " << std::sqrt(stairsSquares / observers)
-              << " in " << stairsTrials / observers << '\n';
 }
 
 /// One of those that the plan thinks possible, all alike likely.
@@ -130,32 +125,15 @@ TEST(QuestMethod, ThresholdsAreUnbiasedAndIntervalsHold) {
         if (draw == plannedObserver)
             EXPECT_LE(held, 0.97 * observers)
                 << "of those in the middle of what is thought possible more may be held";
-        std::cout << "bias " << 100.0 * off / widths << " % of the width, intervals hold in "
-                  << 100.0 * held / observers << " %\n";
     }
 }
 
-TEST(QuestMethod, GoesOnAfterEveryCutWithTheLevelsThatWouldHaveBeen) {
+TEST(QuestMethod, ARowOfAnotherLevelIsAnotherAnswer) {
     const Protocol p = questProtocol(method);
-    const SimulatedObserver observer{{}, p, {}};
-    Experiment whole{p, {}};
-    EXPECT_EQ(whole.sessionTrials(), 40);
-    std::vector<TrialRecord> records;
-    while (!whole.isDone()) records.push_back(whole.take(observer.answer(whole)));
-    ASSERT_EQ(records.size(), 40u);
-    for (std::size_t cut = 0; cut < records.size(); cut += 13) {
-        Experiment experiment{p, {}};
-        for (std::size_t i = 0; i < cut; ++i) ASSERT_EQ(experiment.redo(records[i]), "");
-        for (std::size_t i = cut; i < records.size(); ++i) {
-            EXPECT_EQ(experiment.trial().partLevelsDb, records[i].trial.partLevelsDb);
-            EXPECT_EQ(experiment.take(observer.answer(experiment)).answer, records[i].answer);
-        }
-    }
-    Experiment other{p, {}};
-    TrialRecord moved = records.front();
+    EXPECT_EQ(Experiment(p, {}).sessionTrials(), 40);
+    TrialRecord moved = answered(p).front();
     moved.trial.levelDb += 1.0;
-    EXPECT_TRUE(other.redo(moved).starts_with("expected the level "))
-        << "a row of another level is another answer";
+    EXPECT_TRUE(Experiment(p, {}).redo(moved).starts_with("expected the level "));
 }
 
 TEST(QuestMethod, EndsOnceTheThresholdIsKnownWellEnough) {
@@ -218,7 +196,6 @@ TEST(QuestMethod, SeveralPeopleTellTheWidthTogether) {
     EXPECT_GT(together.halfInterval, studentQuantile(0.975, observers - 1) * together.deviation /
                                          std::sqrt(static_cast<double>(observers)))
         << "what is unknown of the widths counts";
-    std::cout << "bias, dB: alone " << alone - truth << ", together " << together.estimate - truth << '\n';
 }
 
 TEST(QuestMethod, ItsWordsAreThePlan) {

@@ -3,16 +3,11 @@
 #include "Lab/Files/StudyCsv.h"
 #include "Lab/Files/StudyTables.h"
 #include "Support/Has.h"
+#include "Support/Studies.h"
 #include <gtest/gtest.h>
 
 namespace physvib {
 namespace {
-
-template <class Read>
-auto readOne(Read read, std::string_view text) {
-    const NamedText file{text, "f.csv"};
-    return read(std::span{&file, 1});
-}
 
 TEST(StudyCsv, TrialsByCondition) {
     const auto data =

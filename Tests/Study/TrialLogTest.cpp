@@ -5,14 +5,9 @@
 #if !defined(_WIN32)
 #include "Support/FullDisk.h"
 #endif
-#include "Io/Disk/ReadFile.h"
-#include "Lab/Files/ProtocolFile.h"
-#include "Lab/Files/StudyCsv.h"
-#include "Lab/Study/Experiment.h"
-#include "Lab/Study/SimulatedObserver.h"
 #include "Support/Has.h"
+#include "Support/Studies.h"
 #include <cmath>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
 
@@ -21,14 +16,7 @@ namespace {
 
 const Participant participant{"P01", 1, "simulated"};
 
-std::string wholeFile(const Protocol& p) {
-    Experiment experiment{p, participant};
-    const SimulatedObserver observer{{}, p, participant};
-    std::string text = trialHeader(p, participant, "0");
-    while (!experiment.isDone())
-        text += trialRow(p, participant, experiment.take(observer.answer(experiment)));
-    return text;
-}
+std::string wholeFile(const Protocol& p) { return trialFile(p, participant, answered(p, participant)); }
 
 TEST(TrialLog, EveryProtocolsRowsAreTheExperimentAgain) {
     for (const Protocol& p : builtInProtocols()) {
@@ -169,7 +157,7 @@ protected:
             Answer answer = observer.answer(experiment);
             change(answer);
             ASSERT_TRUE(log.append(experiment.take(answer)));
-            EXPECT_EQ(readFile(path, 1'000'000).value.back(), '\n') << "each row is there at once";
+            EXPECT_EQ(contentOf(path).back(), '\n') << "each row is there at once";
         }
     }
     std::filesystem::path path;
@@ -180,13 +168,13 @@ TEST_F(TrialLogFiles, GoOnWhereTheyWereCut) {
     const std::string text = wholeFile(p);
     for (const std::size_t bytes :
          {std::size_t{0}, std::size_t{40}, text.size() / 3, text.size() / 2, text.size() - 1}) {
-        std::ofstream{path, std::ios::binary} << text.substr(0, bytes);
+        put(path, text.substr(0, bytes));
         goOn(p, [](Answer&) {});
-        EXPECT_EQ(readFile(path, 1'000'000).value, text) << bytes;
+        EXPECT_EQ(contentOf(path), text) << bytes;
     }
-    std::ofstream{path, std::ios::binary} << "my diary";
+    put(path, "my diary");
     EXPECT_NE((TrialLogFile{path, p, participant, "0"}.error()), "");
-    EXPECT_EQ(readFile(path, 1'000'000).value, "my diary");
+    EXPECT_EQ(contentOf(path), "my diary");
 }
 
 TEST_F(TrialLogFiles, OfOlderVersionsGoOnInTheirOwnColumns) {
@@ -205,13 +193,13 @@ TEST_F(TrialLogFiles, OfOlderVersionsGoOnInTheirOwnColumns) {
             old += line + "\n";
         }
         ASSERT_FALSE(has(old, newest));
-        std::ofstream{path, std::ios::binary} << old.substr(0, old.size() / 2);
+        put(path, old.substr(0, old.size() / 2));
         goOn(p, [newest = newest](Answer& answer) {
             if (std::string{newest} != ",left,again")
                 answer.apparatus = Apparatus{"1.0", "JACK:system", -6.0};
             answer.left = true;
         });
-        EXPECT_EQ(readFile(path, 1'000'000).value, old) << newest;
+        EXPECT_EQ(contentOf(path), old) << newest;
     }
 }
 
@@ -219,7 +207,7 @@ TEST_F(TrialLogFiles, SayWithWhatTrialsWereFelt) {
     const Protocol p = findProtocol("magnitudes").value;
     const Apparatus with{"1.0", "JACK:system", -6.0, -40.5};
     goOn(p, [&](Answer& answer) { answer.apparatus = with, answer.limiterDb = 1.25; });
-    const std::string text = readFile(path, 1'000'000).value;
+    const std::string text = contentOf(path);
     EXPECT_TRUE(has(text, ",1.25,-6,-40.5,JACK:system,1.0,,\n"));
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
@@ -236,9 +224,8 @@ TEST_F(TrialLogFiles, SayWhetherEveryPartLeftAndGoOnAlike) {
         answer.left = ++n % 3 != 0;
         answer.again = n % 3;
     });
-    const std::string text = readFile(path, 1'000'000).value;
-    EXPECT_TRUE(has(text, ",0,0\n"));
-    EXPECT_TRUE(has(text, ",1,2\n"));
+    const std::string text = contentOf(path);
+    EXPECT_TRUE(hasAll(text, {",0,0\n", ",1,2\n"}));
     const auto log = readTrialLog(text, "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
     Experiment again{p, participant};
@@ -257,12 +244,12 @@ TEST_F(TrialLogFiles, KeepAnswersInWords) {
     const std::vector<std::string> words{"a, b", "\"c\"", "=1+1", "'=x", "# no comment", "", "\uac15", "x'"};
     std::size_t n = 0;
     goOn(p, [&](Answer& answer) { answer.response = words[n++ % words.size()]; });
-    const auto log = readTrialLog(readFile(path, 1'000'000).value, "t.csv", p, participant);
+    const auto log = readTrialLog(contentOf(path), "t.csv", p, participant);
     ASSERT_TRUE(log) << log.error;
     ASSERT_EQ(log.value.records.size(), n);
     for (std::size_t i = 0; i < n; ++i)
         EXPECT_EQ(log.value.records[i].answer.response, words[i % words.size()]);
-    EXPECT_TRUE(has(readFile(path, 1'000'000).value, ",'=1+1,")) << "no formula";
+    EXPECT_TRUE(has(contentOf(path), ",'=1+1,")) << "no formula";
 }
 
 TEST_F(TrialLogFiles, HaveOneWriterAtATime) {
@@ -295,7 +282,7 @@ TEST_F(TrialLogFiles, AFullDiskLeavesWholeRows) {
             }
             EXPECT_EQ(log.error(), path.string() + ": cannot be written: File too large");
         }
-        const std::string kept = readFile(path, 1'000'000).value;
+        const std::string kept = contentOf(path);
         EXPECT_EQ(kept, text.substr(0, bytes < 100 ? 0 : text.rfind('\n', bytes - 1) + 1));
         EXPECT_EQ(std::filesystem::exists(path), !kept.empty());
     }
@@ -306,8 +293,7 @@ TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
     const Protocol p = findProtocol("level-quest").value;
     std::string text = wholeFile(p);
     const auto summaries = [&text]() -> Result<std::vector<LevelSummary>> {
-        const NamedText file{text, "t.csv"};
-        const auto levels = readLevels(std::span{&file, 1});
+        const auto levels = readOne(readLevels, text, "t.csv");
         if (!levels) return Failure{levels.error};
         return summariseLevels(levels.value.conditions.front().trials);
     };
@@ -323,30 +309,6 @@ TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
     text.replace(text.rfind(words), words.size(), ",weibull,,,,,,,,,,\n");
     EXPECT_EQ(summaries().error,
               "t.csv:32: column quest: expected the words of a QUEST+ session, found \"weibull\"");
-}
-
-TEST(TrialLog, AnalysesReadIt) {
-    const auto trialsOf = [](const char* name) { return wholeFile(findProtocol(name).value); };
-    const auto one = [](const std::string& text) { return NamedText{text, "t.csv"}; };
-    std::string text = trialsOf("phantom-grids");
-    NamedText file = one(text);
-    const auto grids = readIdentification(std::span{&file, 1});
-    ASSERT_TRUE(grids) << grids.error;
-    EXPECT_EQ(grids.value.conditions.size(), 6u);
-    EXPECT_TRUE(grids.value.isSimulated);
-    std::size_t trials = 0;
-    for (const auto& c : grids.value.conditions) trials += c.trials.size();
-    EXPECT_EQ(trials, 2u * (90 + 160 + 250)) << "training left out";
-    text = trialsOf("phantom-places");
-    file = one(text);
-    EXPECT_EQ(readLocations(std::span{&file, 1}).value.conditions.size(), 4u);
-    text = trialsOf("model-or-sound");
-    file = one(text);
-    EXPECT_EQ(readChoices(std::span{&file, 1}).value.conditions.front().trials.size(), 108u);
-    text = trialsOf("eight-methods");
-    file = one(text);
-    EXPECT_EQ(readRatings(std::span{&file, 1}).value.scales,
-              (std::vector<std::string>{"realism", "harmony", "liking"}));
 }
 
 } // namespace

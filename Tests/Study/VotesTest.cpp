@@ -97,11 +97,6 @@ TEST(Votes, NamesOfLevelsAreWholeWhereTheyHaveSpaces) {
               "stimulus=rather soft = b; ");
 }
 
-TEST(Votes, OneRatingHasNoIntervalAndNoNumberIsMissing) {
-    const auto summaries = summariseRatings({{"", "AV-FV-DRV", {80}}});
-    EXPECT_EQ(summaries.at(0).deviations[0] + summaries[0].halfIntervals[0], 0.0);
-}
-
 TEST(LevelTrials, ThresholdsAreMeansOfTheLaterReversals) {
     std::vector<LevelTrial> trials;
     const auto add = [&](const char* who, const std::vector<double>& levels, const std::string& answers,

@@ -226,11 +226,10 @@ TEST(ThesisHits, WhatLimiterAndGuardTakeIsTold) {
                                return one.protocol == "eight-methods" && one.part == part;
                            })->here};
     };
-    for (const std::string& words :
-         {fixedNumber(most, 1) + " g together",
-          fixedNumber(100.0 * static_cast<double>(lower) / static_cast<double>(hits), 0) +
-              " % of hits are weakened, at most to " + fixedNumber(100.0 * least, 0) + " %"})
-        EXPECT_TRUE(has(rowOf(ThesisPart::limiter), words));
+    EXPECT_TRUE(hasAll(rowOf(ThesisPart::limiter),
+                       {fixedNumber(most, 1) + " g together",
+                        fixedNumber(100.0 * static_cast<double>(lower) / static_cast<double>(hits), 0) +
+                            " % of hits are weakened, at most to " + fixedNumber(100.0 * least, 0) + " %"}));
     ASSERT_EQ(told.size(), 2U);
     for (const std::string& words : told) {
         EXPECT_TRUE(words.starts_with("rubber-concrete, AF-FV-DR")) << words;
@@ -240,29 +239,22 @@ TEST(ThesisHits, WhatLimiterAndGuardTakeIsTold) {
 
 // What is printed and cannot be, what follows from it, and what is marked as simulated.
 
-std::size_t count(const std::string& text, const std::string& words) {
-    std::size_t times = 0;
-    for (auto at = text.find(words); at != text.npos; at = text.find(words, at + 1)) ++times;
-    return times;
-}
-
 TEST(Thesis, StandsBesideWhatFollowsFromIt) {
     const auto files = thesisPage().files;
     const std::string transfer = files.at("transfer.csv"), resolutions = files.at("resolutions.csv");
-    EXPECT_EQ(count(transfer, ",NO: "), 1u) << transfer;
+    EXPECT_EQ(timesIn(transfer, ",NO: "), 1u) << transfer;
     EXPECT_TRUE(has(transfer.substr(transfer.rfind("RING-5x5")), "tolerance 1,25,2.62,")) << transfer;
-    for (const char* line : {"PHONE-LINEAR,", "PHONE-LOGARITHM,", "RING-LINEAR,", "RING-LOGARITHM,"})
-        EXPECT_TRUE(has(resolutions, line));
-    for (const char* grid : {",5 x 5,5 x 5,", ",5 x 4,5 x 4,", ",6 x 4,6 x 4,", ",7 x 4,7 x 4,"})
-        EXPECT_TRUE(has(resolutions, grid));
-    EXPECT_EQ(count(files.at("printed-tests.csv"), "Table 4.1;"), 24u);
+    EXPECT_TRUE(
+        hasAll(resolutions, {"PHONE-LINEAR,", "PHONE-LOGARITHM,", "RING-LINEAR,", "RING-LOGARITHM,"}));
+    EXPECT_TRUE(hasAll(resolutions, {",5 x 5,5 x 5,", ",5 x 4,5 x 4,", ",6 x 4,6 x 4,", ",7 x 4,7 x 4,"}));
+    EXPECT_EQ(timesIn(files.at("printed-tests.csv"), "Table 4.1;"), 24u);
 }
 
 TEST(Thesis, RehearsalsAreMarkedAsSimulated) {
     const auto files = thesisReport();
     const std::string html = files.at("index.html");
     EXPECT_TRUE(has(html, "SIMULATED"));
-    EXPECT_EQ(count(html, ">SIMULATED</text>"), count(html, ">rehearsed (simulated)<"))
+    EXPECT_EQ(timesIn(html, ">SIMULATED</text>"), timesIn(html, ">rehearsed (simulated)<"))
         << "rehearsals' pictures, and no other";
     for (const char* study :
          {"patterns", "phantom-grids", "phantom-places", "model-or-sound", "eight-methods"}) {

@@ -4,15 +4,13 @@
 #include "Io/Charts/Charts.h"
 #include "Lab/Analysis/Analysis.h"
 #include "Lab/Analysis/StudyCharts.h"
-#include "Lab/Files/ProtocolFile.h"
-#include "Lab/Files/TrialLog.h"
 #include "Lab/Report/ReportBuilder.h"
 #include "Lab/Report/StudyReport.h"
 #include "Lab/Study/Identification.h"
 #include "Lab/Study/Places.h"
-#include "Lab/Study/SimulatedObserver.h"
-#include "Lab/Thesis/ThesisPage.h"
+#include "Support/Studies.h"
 #include "Thesis/PlaceBlur.h"
+#include "Thesis/Printed.h"
 #include <algorithm>
 #include <cmath>
 
@@ -29,12 +27,10 @@ ReportTrials rehearse(const std::string& name, const std::string& observer, int 
     for (int number = 1; number <= participants; ++number) {
         const std::string code = (number < 10 ? "P0" : "P") + std::to_string(number);
         const Participant participant{code, number, observer};
-        Experiment experiment{protocol, participant};
-        const SimulatedObserver answering{*observerNamed(observer), protocol, participant};
-        std::string text = trialHeader(protocol, participant, PHYSVIB_VERSION);
-        while (!experiment.isDone())
-            text += trialRow(protocol, participant, experiment.take(answering.answer(experiment)));
-        texts.emplace_back(name + "-" + code + ".csv", std::move(text));
+        texts.emplace_back(name + "-" + code + ".csv",
+                           trialFile(protocol, participant,
+                                     answered(protocol, participant, *observerNamed(observer)),
+                                     PHYSVIB_VERSION));
     }
     return readReportTrials(texts, {}, protocol).value;
 }
@@ -93,22 +89,14 @@ void RehearsalPage::tellBlur() {
                       "configuration,blur,grid,exact_printed,exact_fitted,tolerance_1_printed,tolerance_1_"
                       "predicted,it_printed,it_model,it_tolerance_1_printed,it_tolerance_1_model"};
     for (const std::string_view configuration : {"PHONE", "RING"}) {
-        std::vector<ExactShare> shares;
-        for (const auto& one : thesis::identifications)
-            if (one.study == "phantom-grids" && one.condition.starts_with(configuration))
-                shares.push_back(
-                    {static_cast<int>(std::lround(std::sqrt(one.stimuli))), one.percentCorrect / 100.0});
-        const double blur = fitPlaceBlur(shares);
+        const double blur = thesis::printedBlur(configuration);
         for (const auto& one : thesis::identifications) {
             if (one.study != "phantom-grids" || !one.condition.starts_with(configuration)) continue;
-            const BlurredGrid model =
-                blurredGrid(static_cast<int>(std::lround(std::sqrt(one.stimuli))), blur);
-            table.cell(configuration).cell(blur).cell(one.condition.substr(one.condition.find('-') + 1));
-            for (const double number : {one.percentCorrect, 100.0 * model.shareExact, one.percentTolerance,
-                                        100.0 * model.shareTolerance1, one.bits, model.bits,
-                                        one.bitsTolerance, model.bitsTolerance1})
-                table.cell(number);
-            table.endRow();
+            const BlurredGrid model = blurredGrid(thesis::linesOf(one), blur);
+            table.row(configuration, blur, one.condition.substr(one.condition.find('-') + 1),
+                      one.percentCorrect, 100.0 * model.shareExact, one.percentTolerance,
+                      100.0 * model.shareTolerance1, one.bits, model.bits, one.bitsTolerance,
+                      model.bitsTolerance1);
         }
     }
     addTable("blur.csv", table);
@@ -135,9 +123,7 @@ std::string RehearsalPage::besideChart(const std::string& title, const std::stri
 }
 
 void RehearsalPage::compareIdentification(const ReportTrials& trials, std::string_view study) {
-    const std::string text = trialsCsv(trials, "");
-    const NamedText file{text, "rehearsal"};
-    const auto data = readIdentification({&file, 1});
+    const auto data = readOne(readIdentification, trialsCsv(trials, ""));
     for (const int tolerance : {0, 1}) {
         if (tolerance == 1 && study != "phantom-grids") continue;
         std::vector<std::string> groups;
@@ -168,21 +154,18 @@ void RehearsalPage::compareIdentification(const ReportTrials& trials, std::strin
 }
 
 void RehearsalPage::comparePlaces(const ReportTrials& trials) {
-    const std::string text = trialsCsv(trials, "");
-    const NamedText file{text, "rehearsal"};
-    const auto data = readLocations({&file, 1});
+    const auto data = readOne(readLocations, trialsCsv(trials, ""));
     ExportTable table{"thesis-resolutions-rehearsed", true,
                       "condition,grid_printed,deviation_printed,grid_rehearsed,deviation_rehearsed"};
     for (const thesis::Counts& printed : thesis::counts) {
         const auto found =
             std::ranges::find(data.value.conditions, printed.condition, &StudyCondition<LocationTrial>::name);
         const ConditionResolution made = resolveCondition(found->name, found->trials);
-        table.cell(printed.condition)
-            .cell(std::to_string(printed.columns) + " x " + std::to_string(printed.rows))
-            .cell(printed.deviation);
-        table.cell(std::to_string(made.resolution.columns) + " x " + std::to_string(made.resolution.rows))
-            .cell(made.counts.standardDeviation());
-        table.endRow();
+        const auto grid = [](const auto& of) {
+            return std::to_string(of.columns) + " x " + std::to_string(of.rows);
+        };
+        table.row(printed.condition, grid(printed), printed.deviation, grid(made.resolution),
+                  made.counts.standardDeviation());
     }
     page_.paragraph(
         "The observer's blur is that of 4.1 and the same everywhere; it knows nothing of laws, nor of places "
@@ -191,20 +174,15 @@ void RehearsalPage::comparePlaces(const ReportTrials& trials) {
 }
 
 void RehearsalPage::compareChoices(const ReportTrials& trials) {
-    const std::string text = trialsCsv(trials, "");
-    const NamedText file{text, "rehearsal"};
-    const auto data = readChoices({&file, 1});
+    const auto data = readOne(readChoices, trialsCsv(trials, ""));
     const ChoiceSummary all = summariseChoices(data.value.conditions.front().trials).front();
     ExportTable table{"thesis-choices-rehearsed", true, "measure,printed,rehearsed"};
-    table.cell("model chosen, %").cell(thesis::modelChosenPercent).cell(100.0 * all.shares.front().share);
-    table.endRow();
+    table.row("model chosen, %", thesis::modelChosenPercent, 100.0 * all.shares.front().share);
     addTable("choices-rehearsed.csv", table);
 }
 
 void RehearsalPage::compareRatings(const ReportTrials& trials) {
-    const std::string text = trialsCsv(trials, "");
-    const NamedText file{text, "rehearsal"};
-    const auto data = readRatings({&file, 1});
+    const auto data = readOne(readRatings, trialsCsv(trials, ""));
     const auto summaries = summariseRatings(data.value.conditions.front().trials);
     std::vector<std::string> groups;
     std::vector<std::optional<double>> printed, rehearsed;

@@ -57,7 +57,7 @@ struct LinePoint {
 
 struct LineSeries {
     std::string name; ///< empty: not in the legend
-    std::vector<LinePoint> points;
+    std::vector<LinePoint> points{};
     bool isDrawnThrough = true, isMarked = true;
     bool isFaint = false; ///< thin and grey: one of many
     bool isThin = false;  ///< thin and without dashes: a waveform
@@ -67,7 +67,7 @@ struct LineSeries {
 struct LineChart {
     ChartFrame frame;
     std::string xWords, yWords;
-    std::vector<LineSeries> series;
+    std::vector<LineSeries> series{};
     bool isLogarithmic = false; ///< both axes
     std::optional<std::pair<double, double>> xRange{}, yRange{};
     std::vector<std::pair<double, std::string>> references{}; ///< horizontal lines
@@ -79,12 +79,12 @@ struct LineChart {
 struct GridChart {
     ChartFrame frame;
     std::string rowWords, columnWords;
-    std::vector<std::string> rows, columns;    ///< labels
-    std::vector<std::optional<double>> values; ///< row by row
-    std::vector<double> halfIntervals{};       ///< of the values; empty: none
-    double most = 1.0;                         ///< value of the darkest shade
-    int decimals = 0;                          ///< of the numbers in the cells
-    std::optional<double> markedBelow{};       ///< cells below are framed
+    std::vector<std::string> rows{}, columns{};  ///< labels
+    std::vector<std::optional<double>> values{}; ///< row by row
+    std::vector<double> halfIntervals{};         ///< of the values; empty: none
+    double most = 1.0;                           ///< value of the darkest shade
+    int decimals = 0;                            ///< of the numbers in the cells
+    std::optional<double> markedBelow{};         ///< cells below are framed
     double width = 330.0;
     double shape = 1.0; ///< of a cell: height / width
 };

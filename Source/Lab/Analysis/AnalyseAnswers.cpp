@@ -59,9 +59,8 @@ void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to) {
         for (const auto& share : summary.shares) {
             const bool isKnown = !std::isnan(share.share);
             table.cells(summary.condition, share.alternative, std::size_t{share.hits},
-                        std::size_t{share.trials}, share.participants,
-                        ExportTable::onlyIf(isKnown, 100.0 * share.share),
-                        ExportTable::onlyIf(isKnown, 100.0 * share.median));
+                        std::size_t{share.trials}, share.participants, onlyIf(isKnown, 100.0 * share.share),
+                        onlyIf(isKnown, 100.0 * share.median));
             if (share.interval)
                 table.row(100.0 * share.interval->least, 100.0 * share.interval->most,
                           share.participants > 1 ? "of the median, by ranks" : "over trials, Wilson's");
@@ -98,8 +97,7 @@ void analyseRatings(const RatingData& data, const Findings& to) {
             if (std::isnan(summary.means[s])) continue;
             const double deviation = summary.deviations[s], half = summary.halfIntervals[s];
             table.row(summary.condition, scales[s], summary.scored[s], summary.raters[s], summary.means[s],
-                      summary.medians[s], ExportTable::onlyIf(deviation > 0.0, deviation),
-                      ExportTable::onlyIf(half > 0.0, half));
+                      summary.medians[s], onlyIf(deviation > 0.0, deviation), onlyIf(half > 0.0, half));
         }
     report.picture = [scales, summaries, isSimulated = data.isSimulated] {
         return scoresChart({chartName(0), "Mean scores", isSimulated}, scales, summaries);
@@ -118,9 +116,8 @@ void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to) {
                      threshold);
         // of one value there is no spread
         table.row(kindWord(s.kind), s.condition, s.stimulus, s.trials, s.participants,
-                  ExportTable::onlyIf(!std::isnan(s.estimate), s.estimate),
-                  ExportTable::onlyIf(s.deviation > 0.0, s.deviation),
-                  ExportTable::onlyIf(s.halfInterval > 0.0, s.halfInterval));
+                  onlyIf(!std::isnan(s.estimate), s.estimate), onlyIf(s.deviation > 0.0, s.deviation),
+                  onlyIf(s.halfInterval > 0.0, s.halfInterval));
     }
     report.participants = each.text();
     report.picture = [summaries, isSimulated = data.isSimulated] {
@@ -153,8 +150,8 @@ void summarise(ExportTable& summary, const std::string& condition, const std::st
     const Moments own{values};
     const bool hasSpread = own.deviation > 0.0,
                hasInterval = hasSpread && (!isAboveZero || own.least() > 0.0);
-    summary.row(condition, measure, own.n, own.mean, ExportTable::onlyIf(hasSpread, own.deviation),
-                ExportTable::onlyIf(hasInterval, own.least()), ExportTable::onlyIf(hasInterval, own.most()));
+    summary.row(condition, measure, own.n, own.mean, onlyIf(hasSpread, own.deviation),
+                onlyIf(hasInterval, own.least()), onlyIf(hasInterval, own.most()));
 }
 
 constexpr const char* summaryColumns =
@@ -208,9 +205,6 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
                 continue;
             }
             const PsychometricFunction& f = own.fit.function;
-            const auto ifKnown = [&](double slope) {
-                return own.fit.hasJnd ? std::optional{slope} : std::nullopt;
-            };
             thresholds.push_back(f.threshold);
             if (own.fit.hasJnd)
                 jnds.push_back(f.jnd());
@@ -220,8 +214,9 @@ void analysePsychometric(const LevelAnswers& data, const Findings& to) {
                            shownCell(plainNumber(own.fit.steps.second)) +
                            " fit as well, of functions as steep as one likes: no " + words.slope(o.model) +
                            "; " + words.half(o.model) + ": the middle");
-            table.row(condition.name, own.participant, own.trials, f.threshold, ifKnown(f.width),
-                      ifKnown(f.jnd()), f.guess, f.lapse, own.fit.logLikelihood);
+            table.row(condition.name, own.participant, own.trials, f.threshold,
+                      onlyIf(own.fit.hasJnd, f.width), onlyIf(own.fit.hasJnd, f.jnd()), f.guess, f.lapse,
+                      own.fit.logLikelihood);
         }
         if (thresholds.empty()) continue;
         isFitted = true;
@@ -242,13 +237,13 @@ void analysePowerLaw(const LevelAnswers& data, const Findings& to) {
     for (const auto& condition : data.conditions) {
         std::vector<double> exponents;
         for (const auto& own : powerLawByParticipant(condition.trials)) {
-            if (!own.law.fault.empty()) {
-                warnOf(report, condition.name, own.participant, " left out: " + own.law.fault);
+            if (!own.fit.fault.empty()) {
+                warnOf(report, condition.name, own.participant, " left out: " + own.fit.fault);
                 continue;
             }
-            exponents.push_back(own.law.exponent);
-            table.row(condition.name, own.participant, own.trials, own.law.exponent, own.law.factor,
-                      own.law.determination);
+            exponents.push_back(own.fit.exponent);
+            table.row(condition.name, own.participant, own.trials, own.fit.exponent, own.fit.factor,
+                      own.fit.determination);
         }
         if (exponents.empty()) return tellNobodyFitted(to);
         summarise(summary, condition.name, "exponent", exponents);

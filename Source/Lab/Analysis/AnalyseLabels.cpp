@@ -61,7 +61,6 @@ void summarise(ExportTable& summary, const std::string& condition, const Confusi
                const InformationTransfer& it, const std::vector<ParticipantTransfer>& people,
                double chancePercent) {
     const Proportion all = proportion(matrix.correct(), matrix.trials());
-    constexpr auto known = ExportTable::onlyIf;
     std::vector<double> shares, bits;
     for (const ParticipantTransfer& own : people) {
         shares.push_back(100.0 * static_cast<double>(own.matrix.correct()) /
@@ -71,14 +70,15 @@ void summarise(ExportTable& summary, const std::string& condition, const Confusi
     const Moments moments{shares}, transferred{bits};
     const bool hasSpread = moments.deviation > 0.0, isAlone = people.size() < 2;
     summary.row(condition, matrix.stimuli(), std::size_t{matrix.trials()}, chancePercent, 100.0 * all.share,
-                people.size(), known(!isAlone, moments.mean), known(hasSpread, moments.deviation),
-                known(isAlone || hasSpread, isAlone ? 100.0 * all.least : std::max(0.0, moments.least())),
-                known(isAlone || hasSpread, isAlone ? 100.0 * all.most : std::min(100.0, moments.most())),
+                people.size(), onlyIf(!isAlone, moments.mean), onlyIf(hasSpread, moments.deviation),
+                onlyIf(isAlone || hasSpread, isAlone ? 100.0 * all.least : std::max(0.0, moments.least())),
+                onlyIf(isAlone || hasSpread, isAlone ? 100.0 * all.most : std::min(100.0, moments.most())),
                 isAlone     ? "over trials, Wilson's"
                 : hasSpread ? "t, cut at 0 and 100"
                             : "",
-                it.bits, known(it.canBeCorrected(), it.correctedBits()), it.mostBits, it.leastBits,
-                known(transferred.n > 1, transferred.mean), known(transferred.n > 1, transferred.deviation));
+                it.bits, onlyIf(it.canBeCorrected(), it.correctedBits()), it.mostBits, it.leastBits,
+                onlyIf(transferred.n > 1, transferred.mean),
+                onlyIf(transferred.n > 1, transferred.deviation));
 }
 
 /// Each participant in both tables; who lacks stimuli.
@@ -93,8 +93,8 @@ std::string exportPeople(const std::string& condition, const std::vector<Partici
         const bool isWhole = matrix.stimuli() == stimuli;
         const double share = static_cast<double>(matrix.correct()) / static_cast<double>(matrix.trials());
         each.row(condition, participant, std::size_t{matrix.trials()},
-                 ExportTable::onlyIf(isWhole || isOfAll, 100.0 * share), transfer.bits,
-                 ExportTable::onlyIf(transfer.canBeCorrected(), transfer.correctedBits()));
+                 onlyIf(isWhole || isOfAll, 100.0 * share), transfer.bits,
+                 onlyIf(transfer.canBeCorrected(), transfer.correctedBits()));
         if (!isWhole) lacking += (lacking.empty() ? "" : ", ") + cleanLine(participant);
     }
     return lacking;
@@ -212,9 +212,8 @@ void summarise(ExportTable& summary, const std::string& condition, const std::ve
         if (values.empty() || (isOfY && !hasY)) continue;
         const Moments own{values};
         const bool hasSpread = own.deviation > 0.0;
-        summary.row(condition, name, trials.size(), own.n, own.mean,
-                    ExportTable::onlyIf(hasSpread, own.deviation),
-                    ExportTable::onlyIf(hasSpread, own.least()), ExportTable::onlyIf(hasSpread, own.most()));
+        summary.row(condition, name, trials.size(), own.n, own.mean, onlyIf(hasSpread, own.deviation),
+                    onlyIf(hasSpread, own.least()), onlyIf(hasSpread, own.most()));
     }
 }
 
@@ -233,8 +232,7 @@ void analysePlaces(const StudyData<PlaceTrial>& data, const Findings& to) {
         summarise(summary, condition.name, condition.trials);
         for (const TargetError& one : targetErrors(condition.trials)) {
             to.table.row(condition.name, one.participant, one.target, one.trials, one.trueX, one.trueY,
-                         one.constantX, one.constantY, ExportTable::onlyIf(one.trials > 1, one.variable),
-                         one.distance);
+                         one.constantX, one.constantY, onlyIf(one.trials > 1, one.variable), one.distance);
         }
     }
     to.report.summary = summary.text();

@@ -45,11 +45,10 @@ Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job) {
                 return trial.session.substr(0, trial.session.find('/')) == session;
             };
             auto& levels = data.value.conditions.front().trials;
-            if (trials.value.protocol)
-                for (const SessionPlan& plan : trials.value.protocol->sessions)
-                    for (LevelTrial& trial : levels)
-                        if (plan.staircase && isOf(trial, plan.name))
-                            trial.range = {plan.staircase->leastDb, plan.staircase->mostDb};
+            for (const SessionPlan& plan : trials.value.sessions())
+                for (LevelTrial& trial : levels)
+                    if (plan.staircase && isOf(trial, plan.name))
+                        trial.range = {plan.staircase->leastDb, plan.staircase->mostDb};
             for (const UnfinishedRun& run : unfinishedRuns(trials.value))
                 if (run.isAdaptive && !run.isOver &&
                     std::erase_if(levels,
@@ -107,39 +106,35 @@ AnalysisReport analysed(const Analysis& which, const AnalysisJob& job) {
 }
 
 constexpr Analysis analyses[] = {
-    {Analysis::Kind::results, "confusion",
-     "stimulus,response per trial: percent correct and information transfer",
+    {"confusion", "stimulus,response per trial: percent correct and information transfer",
      "condition,participant,stimulus,response,count", analysed<readLabels, analyseConfusion>},
-    {Analysis::Kind::results, "resolution",
-     "pointing responses: normals, likelihood map, percent counts, perceptual resolution",
+    {"resolution", "pointing responses: normals, likelihood map, percent counts, perceptual resolution",
      "condition,target_column,target_row,responses,mean_x,mean_y,variance_x,variance_y,covariance,percent,"
      "borrowed",
      analysed<fromFiles<readLocations>, analyseResolution>},
-    {Analysis::Kind::results, "places",
-     "pointing at targets anywhere: constant and variable error, distance, gain",
+    {"places", "pointing at targets anywhere: constant and variable error, distance, gain",
      "condition,participant,target,trials,true_x,true_y,constant_x,constant_y,variable,distance",
      analysed<readTargets, analysePlaces>},
-    {Analysis::Kind::results, "percent-counts", "percent counts: the largest grid that merging makes of them",
+    {"percent-counts", "percent counts: the largest grid that merging makes of them",
      "condition,row,column,percent", analysed<fromFiles<readPercentCounts>, analysePercentCounts>},
-    {Analysis::Kind::results, "choices", "forced choices: shares of the alternatives",
+    {"choices", "forced choices: shares of the alternatives",
      "condition,alternative,votes,trials,participants,percent,participants_median_percent,least_percent,"
      "most_percent,interval",
      analysed<fromFiles<readChoices>, analyseChoices>},
-    {Analysis::Kind::results, "ratings", "slider ratings: means by condition",
+    {"ratings", "slider ratings: means by condition",
      "condition,scale,trials,participants,mean,median,standard_deviation,half_interval",
      analysed<fromFiles<readRatings>, analyseRatings>},
-    {Analysis::Kind::results, "levels",
-     "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means",
+    {"levels", "staircases, QUEST+, adjustments and magnitude estimations: thresholds and means",
      "kind,condition,stimulus,trials,participants,estimate,standard_deviation,half_interval",
      analysed<readFinishedLevels, analyseLevels>},
-    {Analysis::Kind::results, "icons", "stimulus,response per trial: the patterns that are confused least",
+    {"icons", "stimulus,response per trial: the patterns that are confused least",
      "condition,stimulus,percent_correct", analysed<readLabels, analyseIcons>},
-    {Analysis::Kind::fit, "psychometric",
-     "psychometric functions of each participant, thresholds and JNDs over participants",
+    {"psychometric", "psychometric functions of each participant, thresholds and JNDs over participants",
      "condition,participant,trials,threshold,width,jnd,guess,lapse,log_likelihood",
-     analysed<readAnswers, analysePsychometric>},
-    {Analysis::Kind::fit, "power-law", "Stevens' exponent of magnitude estimations",
-     "condition,participant,trials,exponent,factor,r_squared", analysed<readMagnitudes, analysePowerLaw>},
+     analysed<readAnswers, analysePsychometric>, Analysis::Kind::fit},
+    {"power-law", "Stevens' exponent of magnitude estimations",
+     "condition,participant,trials,exponent,factor,r_squared", analysed<readMagnitudes, analysePowerLaw>,
+     Analysis::Kind::fit},
 };
 
 } // namespace

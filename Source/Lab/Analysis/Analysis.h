@@ -60,13 +60,14 @@ auto readStudyFiles(const StudySources& sources, Reader reader, std::size_t most
     return reader(files);
 }
 
+/// A cell's number, where it is known.
+inline std::optional<double> onlyIf(bool isKnown, double number) {
+    return isKnown ? std::optional{number} : std::nullopt;
+}
+
 /// CSV table for statistics packages, written cell by cell.
 class ExportTable {
 public:
-    /// A cell's number, where it is known.
-    static std::optional<double> onlyIf(bool isKnown, double number) {
-        return isKnown ? std::optional{number} : std::nullopt;
-    }
     ExportTable(std::string_view kind, bool isSimulated, std::string_view header) {
         Provenance provenance{PHYSVIB_VERSION, {{"analysis", std::string(kind)}}};
         if (isSimulated) provenance.entries.emplace_back("observer", "simulated");
@@ -146,10 +147,11 @@ AnalysisReport analyse(const std::string& name, const AnalysisJob& options);
 
 /// Entry of the list of all analyses.
 struct Analysis {
-    enum class Kind { results, fit } kind; ///< of trials, or fitted to each participant's trials
+    enum class Kind { results, fit }; ///< of trials, or fitted to each participant's trials
     std::string_view name;
     const char *purpose, *columns; ///< columns: of its table
     AnalysisReport (*run)(const Analysis&, const AnalysisJob&);
+    Kind kind = Kind::results;
 };
 
 /// Any thread.

@@ -29,7 +29,7 @@ std::vector<std::string> numbersTo(std::size_t most) {
 } // namespace
 
 std::string confusionChart(ChartFrame frame, const ConfusionMatrix& matrix) {
-    GridChart chart{std::move(frame), "stimulus", "response", {}, {}, {}};
+    GridChart chart{std::move(frame), "stimulus", "response"};
     for (std::size_t i = 0; i < matrix.stimuli(); ++i) chart.rows.push_back(matrix.label(i));
     for (std::size_t j = 0; j < matrix.responses(); ++j) chart.columns.push_back(matrix.label(j));
     const auto totals = matrix.stimulusTotals();
@@ -84,7 +84,7 @@ std::string mergedChart(ChartFrame frame, const ConditionResolution& one) {
 }
 
 std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summaries) {
-    BarChart chart{std::move(frame), "condition", "chosen (%)", {}, {}};
+    BarChart chart{std::move(frame), "condition", "chosen (%)"};
     std::set<std::string> alternatives;
     for (const ChoiceSummary& summary : summaries)
         for (const ChoiceShare& share : summary.shares) alternatives.insert(share.alternative);
@@ -103,7 +103,7 @@ std::string sharesChart(ChartFrame frame, const std::vector<ChoiceSummary>& summ
 
 std::string scoresChart(ChartFrame frame, const std::vector<std::string>& scales,
                         const std::vector<RatingSummary>& summaries, int points) {
-    BarChart chart{std::move(frame), "condition", "mean score", {}, {}};
+    BarChart chart{std::move(frame), "condition", "mean score"};
     for (const std::string& scale : scales) chart.series.push_back({scale, {}});
     for (const RatingSummary& summary : summaries) {
         chart.groups.push_back(summary.condition);
@@ -153,12 +153,10 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
     }
     std::vector<std::string> charts;
     for (const auto& [axis, layers] : axes) {
-        LineChart chart{{chartName(charts.size()), "Isolation, axis " + axis},
-                        "frequency (Hz)",
-                        "gamma (Eq. 3.2), mean",
-                        {}};
+        LineChart chart{
+            {chartName(charts.size()), "Isolation, axis " + axis}, "frequency (Hz)", "gamma (Eq. 3.2), mean"};
         for (const auto& [layer, curve] : layers) {
-            LineSeries series{layer, {}};
+            LineSeries series{layer};
             series.style = styles.at(layer);
             for (const auto& [hz, gammas] : curve)
                 series.points.push_back({hz, ChartValue::around(Moments(gammas).mean)});
@@ -174,7 +172,7 @@ namespace {
 constexpr int curvePoints = 80;
 
 LineSeries curve(const PsychometricFunction& f, double least, double most) {
-    LineSeries series{{}, {}};
+    LineSeries series{{}};
     series.isMarked = false;
     for (int i = 0; i <= curvePoints; ++i) {
         const double level = least + (most - least) * i / curvePoints, p = 100.0 * f.probability(level);
@@ -210,7 +208,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
                 std::erase_if(shown, [&](const auto& trial) { return trial.participant == own.participant; });
     const auto counts = countByLevel(shown, [](const LevelAnswer& trial) { return trial.counted(); });
     const double least = counts.front().level, most = counts.back().level;
-    LineChart chart{std::move(frame), words.level, words.answer + " (%)", {}};
+    LineChart chart{std::move(frame), words.level, words.answer + " (%)"};
     chart.yRange = {0.0, 100.0};
     std::vector<double> thresholds, widths, lapses;
     for (const auto& own : fits) {
@@ -221,7 +219,7 @@ std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& 
         chart.series.push_back(curve(own.fit.function, least, most));
         chart.series.back().isFaint = true;
     }
-    LineSeries answers{"trials", {}};
+    LineSeries answers{"trials"};
     answers.isDrawnThrough = false;
     const auto largest = static_cast<double>(std::ranges::max(counts, {}, &LevelCount::trials).trials);
     for (const LevelCount& count : counts) {
@@ -264,22 +262,22 @@ std::string powerLawChart(ChartFrame frame, const std::vector<LevelAnswer>& tria
         std::size_t i = 0;
         for (const auto& [level, values] : levels) relative[level].push_back(means[i++] - own);
     }
-    LineChart chart{std::move(frame), levelWords, "magnitude / participant's geometric mean", {}};
+    LineChart chart{std::move(frame), levelWords, "magnitude / participant's geometric mean"};
     chart.isLogarithmic = true;
-    LineSeries points{"geometric mean of participants", {}};
+    LineSeries points{"geometric mean of participants"};
     points.isDrawnThrough = false;
     for (const auto& [level, values] : relative)
         points.points.push_back({level, ChartValue::around(std::pow(10.0, meanOf(values)))});
     // each law in units of its participant's geometric mean, as the points are: people may have other levels
     std::vector<double> exponents, atOne;
     for (const auto& own : powerLawByParticipant(trials))
-        if (own.law.fault.empty()) {
-            exponents.push_back(own.law.exponent);
-            atOne.push_back(std::log10(own.law.factor) - centre[own.participant]);
+        if (own.fit.fault.empty()) {
+            exponents.push_back(own.fit.exponent);
+            atOne.push_back(std::log10(own.fit.factor) - centre[own.participant]);
         }
     if (!exponents.empty() && !points.points.empty()) {
         const double exponent = meanOf(exponents), first = meanOf(atOne);
-        LineSeries law{"mean power law", {}};
+        LineSeries law{"mean power law"};
         law.isMarked = false;
         law.style = 4;
         for (const double level : {points.points.front().x, points.points.back().x}) {

@@ -23,10 +23,16 @@ inline constexpr Bounds call = upTo(static_cast<double>(mostCallBytes)); // leng
 inline constexpr Bounds lines{1.0, 16.0}; // number of grid lines that merging can divide (Identification.h)
 } // namespace studyBounds
 
+/// A field that a file may leave out.
+template <class T, class F>
+void mayHave(auto& v, std::string_view name, F T::*member, const Bounds& bounds = {}) {
+    v.field(name, member, bounds, Need::optional);
+}
+
 void visitFields(auto& v, FieldsOf<PatternSet>) {
     v.field("enchanters", &PatternSet::enchanters, Bounds{1.0, 26.0}, Need::required);
-    v.field("pulse_s", &PatternSet::pulseSeconds, Bounds{0.001, 10.0, 1, 8}, Need::optional);
-    v.field("gap_s", &PatternSet::gapSeconds, studyBounds::of(stimulusRanges::gapSeconds), Need::optional);
+    mayHave(v, "pulse_s", &PatternSet::pulseSeconds, Bounds{0.001, 10.0, 1, 8});
+    mayHave(v, "gap_s", &PatternSet::gapSeconds, studyBounds::of(stimulusRanges::gapSeconds));
 }
 
 void visitFields(auto& v, FieldsOf<GridSet>) {
@@ -34,39 +40,37 @@ void visitFields(auto& v, FieldsOf<GridSet>) {
     v.field("rows", &GridSet::rows, studyBounds::lines, Need::required);
     v.choice("points", &GridSet::points, gridPointNames);
     v.choice("law", &GridSet::law, panningLawNames);
-    v.field("exponent", &GridSet::exponent, studyBounds::of(stimulusRanges::exponent), Need::optional);
-    v.field("seconds", &GridSet::seconds, studyBounds::of(stimulusRanges::seconds), Need::optional);
+    mayHave(v, "exponent", &GridSet::exponent, studyBounds::of(stimulusRanges::exponent));
+    mayHave(v, "seconds", &GridSet::seconds, studyBounds::of(stimulusRanges::seconds));
 }
 
 void visitFields(auto& v, FieldsOf<StudyFactor>) {
     v.field("name", &StudyFactor::name, anyText, Need::required);
     v.field("values", &StudyFactor::values, items(1, 256), Need::required);
-    v.field("labels", &StudyFactor::labels, items(0, 256), Need::optional);
-    v.field("alternative", &StudyFactor::alternative, anyText, Need::optional);
-    v.field("otherwise", &StudyFactor::otherwise, anyText, Need::optional);
+    mayHave(v, "labels", &StudyFactor::labels, items(0, 256));
+    mayHave(v, "alternative", &StudyFactor::alternative);
+    mayHave(v, "otherwise", &StudyFactor::otherwise);
 }
 
 void visitFields(auto& v, FieldsOf<StudyVariable>) {
     v.field("name", &StudyVariable::name, anyText, Need::required);
     v.field("at_0_db", &StudyVariable::at0Db, Bounds{1e-6, 1e6}, Need::required);
-    v.field("roves", &StudyVariable::roves, {}, Need::optional);
+    mayHave(v, "roves", &StudyVariable::roves);
 }
 
 template <class Set>
 void visitCalls(auto& v) {
-    v.field("factors", static_cast<std::vector<StudyFactor> Set::*>(&Set::factors), items(0, 16),
-            Need::optional);
+    mayHave(v, "factors", static_cast<std::vector<StudyFactor> Set::*>(&Set::factors), items(0, 16));
     v.field("call", static_cast<std::string Set::*>(&Set::call), studyBounds::call, Need::required);
-    v.field("variables", static_cast<std::vector<StudyVariable> Set::*>(&Set::variables), items(0, 8),
-            Need::optional);
+    mayHave(v, "variables", static_cast<std::vector<StudyVariable> Set::*>(&Set::variables), items(0, 8));
 }
 
 void visitFields(auto& v, FieldsOf<CallSet>) { visitCalls<CallSet>(v); }
 
 void visitFields(auto& v, FieldsOf<WorldSet>) {
     visitCalls<WorldSet>(v);
-    v.field("hands", &WorldSet::hasHands, {}, Need::optional);
-    v.field("display_scale", &WorldSet::displayScale, Bounds{1.0, 10000.0}, Need::optional);
+    mayHave(v, "hands", &WorldSet::hasHands);
+    mayHave(v, "display_scale", &WorldSet::displayScale, Bounds{1.0, 10000.0});
 }
 
 void visitFields(auto& v, FieldsOf<StudySoundFile>) {
@@ -83,117 +87,117 @@ void visitFields(auto& v, FieldsOf<MaterialPictureFile>) {
 void visitFields(auto& v, FieldsOf<ConditionPlan>) {
     using C = ConditionPlan;
     v.field("name", &C::name, anyText, Need::required);
-    v.field("group", &C::group, anyText, Need::optional);
-    v.field("layout", &C::layout, anyText, Need::optional);
-    v.field("frequency_hz", &C::frequencyHz, studyBounds::of(stimulusRanges::frequencyHz), Need::optional);
-    v.field("at_resonance", &C::isAtResonance, {}, Need::optional);
-    v.field("level_g", &C::levelG, studyBounds::of(stimulusRanges::levelG), Need::optional);
-    v.field("observer_blur", &C::observerBlur, Bounds{0.001, 1.0}, Need::optional);
+    mayHave(v, "group", &C::group);
+    mayHave(v, "layout", &C::layout);
+    mayHave(v, "frequency_hz", &C::frequencyHz, studyBounds::of(stimulusRanges::frequencyHz));
+    mayHave(v, "at_resonance", &C::isAtResonance);
+    mayHave(v, "level_g", &C::levelG, studyBounds::of(stimulusRanges::levelG));
+    mayHave(v, "observer_blur", &C::observerBlur, Bounds{0.001, 1.0});
     v.variant("stimuli", &C::stimuli, stimulusSetNames);
 }
 
 void visitFields(auto& v, FieldsOf<Alternative>) {
     v.field("name", &Alternative::name, anyText, Need::required);
-    v.field("level_db", &Alternative::levelDb, studyBounds::levelDb, Need::optional);
+    mayHave(v, "level_db", &Alternative::levelDb, studyBounds::levelDb);
 }
 
 void visitFields(auto& v, FieldsOf<Adjustment>) {
     using A = Adjustment;
     v.field("alternative", &A::alternative, anyText, Need::required);
-    v.field("start_db", &A::startDb, studyBounds::levelDb, Need::optional);
-    v.field("random_start", &A::startsAnywhere, {}, Need::optional);
-    v.field("step_db", &A::stepDb, Bounds{0.01, 20.0}, Need::optional);
-    v.field("least_db", &A::leastDb, studyBounds::levelDb, Need::optional);
-    v.field("most_db", &A::mostDb, studyBounds::levelDb, Need::optional);
+    mayHave(v, "start_db", &A::startDb, studyBounds::levelDb);
+    mayHave(v, "random_start", &A::startsAnywhere);
+    mayHave(v, "step_db", &A::stepDb, Bounds{0.01, 20.0});
+    mayHave(v, "least_db", &A::leastDb, studyBounds::levelDb);
+    mayHave(v, "most_db", &A::mostDb, studyBounds::levelDb);
 }
 
 void visitFields(auto& v, FieldsOf<StaircasePlan>) {
     using S = StaircasePlan;
     v.field("alternative", &S::alternative, anyText, Need::required);
-    v.field("start_db", &S::startDb, studyBounds::levelDb, Need::optional);
-    v.field("starts_db", &S::startsDb, Bounds{studyBounds::levelDb.least, studyBounds::levelDb.most, 0, 8},
-            Need::optional);
-    v.field("step_db", &S::stepDb, Bounds{0.01, 20.0}, Need::optional);
-    v.field("least_step_db", &S::leastStepDb, Bounds{0.01, 20.0}, Need::optional);
-    v.field("least_db", &S::leastDb, studyBounds::levelDb, Need::optional);
-    v.field("most_db", &S::mostDb, studyBounds::levelDb, Need::optional);
-    v.field("up_ratio", &S::upRatio, Bounds{0.1, 10.0}, Need::optional);
-    v.field("down", &S::down, Bounds{1.0, 10.0}, Need::optional);
-    v.field("reversals", &S::reversals, Bounds{2.0, 100.0}, Need::optional);
-    v.field("most_trials", &S::mostTrials, Bounds{1.0, 10000.0}, Need::optional);
+    mayHave(v, "start_db", &S::startDb, studyBounds::levelDb);
+    mayHave(v, "starts_db", &S::startsDb,
+            Bounds{studyBounds::levelDb.least, studyBounds::levelDb.most, 0, 8});
+    mayHave(v, "step_db", &S::stepDb, Bounds{0.01, 20.0});
+    mayHave(v, "least_step_db", &S::leastStepDb, Bounds{0.01, 20.0});
+    mayHave(v, "least_db", &S::leastDb, studyBounds::levelDb);
+    mayHave(v, "most_db", &S::mostDb, studyBounds::levelDb);
+    mayHave(v, "up_ratio", &S::upRatio, Bounds{0.1, 10.0});
+    mayHave(v, "down", &S::down, Bounds{1.0, 10.0});
+    mayHave(v, "reversals", &S::reversals, Bounds{2.0, 100.0});
+    mayHave(v, "most_trials", &S::mostTrials, Bounds{1.0, 10000.0});
 }
 
 void visitFields(auto& v, FieldsOf<QuestMethod>) {
     using Q = QuestMethod;
     v.field("alternative", &Q::alternative, anyText, Need::required);
     v.choice("shape", &Q::shape, psychometricShapeNames);
-    v.field("least_db", &Q::leastDb, studyBounds::levelDb, Need::optional);
-    v.field("most_db", &Q::mostDb, studyBounds::levelDb, Need::optional);
-    v.field("step_db", &Q::stepDb, Bounds{0.01, 20.0}, Need::optional);
-    v.field("least_width_db", &Q::leastWidthDb, Bounds{0.1, 100.0}, Need::optional);
-    v.field("most_width_db", &Q::mostWidthDb, Bounds{0.1, 100.0}, Need::optional);
-    v.field("lapse", &Q::lapse, Bounds{0.001, mostLapse}, Need::optional);
-    v.field("trials", &Q::trials, Bounds{1.0, 10000.0}, Need::optional);
-    v.field("deviation_db", &Q::deviationDb, Bounds{0.0, 100.0}, Need::optional);
+    mayHave(v, "least_db", &Q::leastDb, studyBounds::levelDb);
+    mayHave(v, "most_db", &Q::mostDb, studyBounds::levelDb);
+    mayHave(v, "step_db", &Q::stepDb, Bounds{0.01, 20.0});
+    mayHave(v, "least_width_db", &Q::leastWidthDb, Bounds{0.1, 100.0});
+    mayHave(v, "most_width_db", &Q::mostWidthDb, Bounds{0.1, 100.0});
+    mayHave(v, "lapse", &Q::lapse, Bounds{0.001, mostLapse});
+    mayHave(v, "trials", &Q::trials, Bounds{1.0, 10000.0});
+    mayHave(v, "deviation_db", &Q::deviationDb, Bounds{0.0, 100.0});
 }
 
 void visitFields(auto& v, FieldsOf<SessionPlan>) {
     using S = SessionPlan;
     v.field("name", &S::name, anyText, Need::required);
-    v.field("training", &S::isTraining, {}, Need::optional);
+    mayHave(v, "training", &S::isTraining);
     v.choice("task", &S::task, studyTaskNames);
-    v.field("question", &S::question, anyText, Need::optional);
-    v.field("instruction", &S::instruction, anyText, Need::optional);
-    v.field("feedback", &S::givesFeedback, {}, Need::optional);
-    v.field("interval_s", &S::intervalSeconds, studyBounds::rest, Need::optional);
+    mayHave(v, "question", &S::question);
+    mayHave(v, "instruction", &S::instruction);
+    mayHave(v, "feedback", &S::givesFeedback);
+    mayHave(v, "interval_s", &S::intervalSeconds, studyBounds::rest);
     v.choice("order", &S::order, trialOrderNames);
-    v.field("repetitions", &S::repetitions, Bounds{1.0, 1000.0}, Need::optional);
-    v.field("fewest_touches", &S::fewestTouches, studyBounds::count, Need::optional);
-    v.field("most_plays", &S::mostPlays, studyBounds::count, Need::optional);
-    v.field("least_s", &S::leastSeconds, studyBounds::rest, Need::optional);
-    v.field("answer_within_s", &S::answerSeconds, studyBounds::rest, Need::optional);
-    v.field("break_before_s", &S::breakBeforeSeconds, studyBounds::rest, Need::optional);
-    v.field("break_every", &S::breakEvery, studyBounds::count, Need::optional);
-    v.field("break_s", &S::breakSeconds, studyBounds::rest, Need::optional);
-    v.field("alternatives", &S::alternatives, studyBounds::names, Need::optional);
-    v.field("both_orders", &S::bothOrders, {}, Need::optional);
-    v.field("answers", &S::answers, studyBounds::names, Need::optional);
-    v.field("objects", &S::objects, studyBounds::names, Need::optional);
-    v.field("scales", &S::scales, studyBounds::names, Need::optional);
-    v.field("reference", &S::reference, anyText, Need::optional);
-    v.field("points", &S::points, upTo(11.0), Need::optional);
-    v.field("once", &S::isOnce, {}, Need::optional);
-    v.field("pairs", &S::comparesPairs, {}, Need::optional);
-    v.field("definitions", &S::definitions, studyBounds::names, Need::optional);
-    v.field("anchors", &S::anchors, studyBounds::names, Need::optional);
-    v.field("show_numbers", &S::showsNumbers, {}, Need::optional);
-    v.field("adjustment", &S::adjustment, {}, Need::optional);
-    v.field("staircase", &S::staircase, {}, Need::optional);
-    v.field("quest", &S::quest, {}, Need::optional);
-    v.field("correct", &S::correct, anyText, Need::optional);
-    v.field("until_correct", &S::untilCorrect, studyBounds::count, Need::optional);
-    v.field("rove_db", &S::roveDb, Bounds{0.0, 40.0}, Need::optional);
-    v.field("modulus", &S::modulus, anyText, Need::optional);
-    v.field("modulus_number", &S::modulusNumber, Bounds{1e-6, 1e6}, Need::optional);
-    v.field("may_be_empty", &S::mayBeEmpty, {}, Need::optional);
-    v.field("levels_from", &S::levelsFrom, anyText, Need::optional);
-    v.field("levels_file", &S::levelsFile, anyText, Need::optional);
+    mayHave(v, "repetitions", &S::repetitions, Bounds{1.0, 1000.0});
+    mayHave(v, "fewest_touches", &S::fewestTouches, studyBounds::count);
+    mayHave(v, "most_plays", &S::mostPlays, studyBounds::count);
+    mayHave(v, "least_s", &S::leastSeconds, studyBounds::rest);
+    mayHave(v, "answer_within_s", &S::answerSeconds, studyBounds::rest);
+    mayHave(v, "break_before_s", &S::breakBeforeSeconds, studyBounds::rest);
+    mayHave(v, "break_every", &S::breakEvery, studyBounds::count);
+    mayHave(v, "break_s", &S::breakSeconds, studyBounds::rest);
+    mayHave(v, "alternatives", &S::alternatives, studyBounds::names);
+    mayHave(v, "both_orders", &S::bothOrders);
+    mayHave(v, "answers", &S::answers, studyBounds::names);
+    mayHave(v, "objects", &S::objects, studyBounds::names);
+    mayHave(v, "scales", &S::scales, studyBounds::names);
+    mayHave(v, "reference", &S::reference);
+    mayHave(v, "points", &S::points, upTo(11.0));
+    mayHave(v, "once", &S::isOnce);
+    mayHave(v, "pairs", &S::comparesPairs);
+    mayHave(v, "definitions", &S::definitions, studyBounds::names);
+    mayHave(v, "anchors", &S::anchors, studyBounds::names);
+    mayHave(v, "show_numbers", &S::showsNumbers);
+    mayHave(v, "adjustment", &S::adjustment);
+    mayHave(v, "staircase", &S::staircase);
+    mayHave(v, "quest", &S::quest);
+    mayHave(v, "correct", &S::correct);
+    mayHave(v, "until_correct", &S::untilCorrect, studyBounds::count);
+    mayHave(v, "rove_db", &S::roveDb, Bounds{0.0, 40.0});
+    mayHave(v, "modulus", &S::modulus);
+    mayHave(v, "modulus_number", &S::modulusNumber, Bounds{1e-6, 1e6});
+    mayHave(v, "may_be_empty", &S::mayBeEmpty);
+    mayHave(v, "levels_from", &S::levelsFrom);
+    mayHave(v, "levels_file", &S::levelsFile);
 }
 
 void visitFields(auto& v, FieldsOf<Protocol>) {
     using P = Protocol;
     v.field("name", &P::name, anyText, Need::required);
-    v.field("title", &P::title, anyText, Need::optional);
-    v.field("seed", &P::seed, upTo(1e9), Need::optional);
-    v.field("pink_noise", &P::hasPinkNoise, {}, Need::optional);
-    v.field("pink_noise_db", &P::pinkNoiseDb, Bounds{PinkNoise::leastDb, PinkNoise::mostDb}, Need::optional);
-    v.field("exposure_limit_m_per_s2", &P::exposureLimit, Bounds{0.01, exposureLimitValue}, Need::optional);
-    v.field("sounds", &P::sounds, items(0, 64), Need::optional);
-    v.field("pictures", &P::pictures, items(0, 16), Need::optional);
+    mayHave(v, "title", &P::title);
+    mayHave(v, "seed", &P::seed, upTo(1e9));
+    mayHave(v, "pink_noise", &P::hasPinkNoise);
+    mayHave(v, "pink_noise_db", &P::pinkNoiseDb, Bounds{PinkNoise::leastDb, PinkNoise::mostDb});
+    mayHave(v, "exposure_limit_m_per_s2", &P::exposureLimit, Bounds{0.01, exposureLimitValue});
+    mayHave(v, "sounds", &P::sounds, items(0, 64));
+    mayHave(v, "pictures", &P::pictures, items(0, 16));
     v.choice("condition_order", &P::conditionOrder, conditionOrderNames);
-    v.field("condition_break_s", &P::conditionBreakSeconds, studyBounds::rest, Need::optional);
-    v.field("closing_question", &P::closingQuestion, anyText, Need::optional);
-    v.field("words", &P::words, anyText, Need::optional);
+    mayHave(v, "condition_break_s", &P::conditionBreakSeconds, studyBounds::rest);
+    mayHave(v, "closing_question", &P::closingQuestion);
+    mayHave(v, "words", &P::words);
     v.field("conditions", &P::conditions, items(1, 256), Need::required);
     v.field("sessions", &P::sessions, items(1, 64), Need::required);
 }

@@ -38,6 +38,27 @@ Protocol readProtocolRoot(Json& root) {
     return protocol;
 }
 
+Result<std::vector<StimulusLevel>> readStimulusLevels(std::string_view text, std::string_view name) {
+    std::vector<StimulusLevel> levels;
+    try {
+        const detail::StudyRows rows{text, name};
+        const auto condition = rows.required("condition"), stimulus = rows.required("stimulus"),
+                   alternative = rows.required("alternative"), level = rows.required("level_db");
+        for (const CsvRow& row : rows.table().rows) {
+            StimulusLevel next{rows.text(row, condition), rows.text(row, stimulus),
+                               rows.text(row, alternative),
+                               rows.number(row, level, -limits::maxLevelDb, limits::maxLevelDb)};
+            if (levelOf(levels, next.condition, next.stimulus) != nullptr)
+                throw detail::StudyFault{
+                    rows.table().fault(row, stimulus, "each stimulus of a condition once")};
+            levels.push_back(std::move(next));
+        }
+    } catch (const detail::StudyFault& fault) {
+        return Failure{fault.message};
+    }
+    return levels;
+}
+
 /// Loads the sessions' levels_file. Returns an error line or an empty string.
 std::string takeLevels(Protocol& protocol) {
     const auto session =

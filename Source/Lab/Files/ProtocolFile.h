@@ -175,30 +175,8 @@ Result<Protocol> findProtocol(const std::string& nameOrPath);
 /// One version per built-in protocol with an applicable change, as listed. Created on first use; any thread.
 const std::vector<Protocol>& thesisVersions();
 
-// CSV files of stimulus levels that experts adjusted, used by another study.
-
-/// Parses the columns condition, stimulus, alternative, level_db; otherwise one line that names file, line
-/// and column. Any thread.
-inline Result<std::vector<StimulusLevel>> readStimulusLevels(std::string_view text, std::string_view name) {
-    std::vector<StimulusLevel> levels;
-    try {
-        const detail::StudyRows rows{text, name};
-        const auto condition = rows.required("condition"), stimulus = rows.required("stimulus"),
-                   alternative = rows.required("alternative"), level = rows.required("level_db");
-        for (const CsvRow& row : rows.table().rows) {
-            StimulusLevel next{rows.text(row, condition), rows.text(row, stimulus),
-                               rows.text(row, alternative),
-                               rows.number(row, level, -limits::maxLevelDb, limits::maxLevelDb)};
-            if (levelOf(levels, next.condition, next.stimulus) != nullptr)
-                throw detail::StudyFault{
-                    rows.table().fault(row, stimulus, "each stimulus of a condition once")};
-            levels.push_back(std::move(next));
-        }
-    } catch (const detail::StudyFault& fault) {
-        return Failure{fault.message};
-    }
-    return levels;
-}
+// CSV files of stimulus levels that experts adjusted, used by another study. The columns condition, stimulus,
+// alternative and level_db are read.
 
 /// `levels` as CSV, with number of participants and standard deviation. Any thread.
 inline std::string stimulusLevelsCsv(const std::vector<StimulusLevel>& levels, const Provenance& provenance) {

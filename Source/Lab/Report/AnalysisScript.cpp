@@ -10,8 +10,8 @@
 #include "Lab/Files/TrialLog.h"
 #include "Lab/Study/StudyTasks.h"
 #include <algorithm>
+#include <set>
 #include <sstream>
-#include <utility>
 
 namespace physvib {
 
@@ -94,8 +94,6 @@ std::string keptScriptFault(const std::filesystem::path& path) {
 
 // Converts trial files to BIDS tables: one row per trial, with times under the column names of BIDS.
 
-const std::vector<EmbeddedFile>& embeddedScript(); // Source/Lab/Script
-
 namespace {
 
 /// Letters and digits only, as BIDS requires for labels.
@@ -115,8 +113,7 @@ std::string cellOf(const std::string& words) {
 
 /// What the columns of trial files mean, as BIDS has it.
 const OrderedJson& meanings() {
-    static const OrderedJson all =
-        OrderedJson::parse(std::ranges::find(embeddedScript(), "columns.json", &EmbeddedFile::name)->text);
+    static const OrderedJson all = OrderedJson::parse(embedded("columns.json"));
     return all;
 }
 
@@ -158,38 +155,30 @@ std::string columnMeaning(std::string_view column) {
 
 std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const BidsWords& words) {
     std::map<std::string, std::string> files;
-    const auto participant = trials.column("participant");
-    if (!participant) return files;
-    std::string header;
-    for (std::size_t c = 0; c < trials.columns.size(); ++c)
-        if (c != *participant) header.append(header.empty() ? "" : "\t").append(bidsName(trials.columns[c]));
+    const std::size_t participant = *trials.column("participant");
+    const auto lineOf = [&](auto cellAt) { // of the other columns
+        std::vector<std::string> cells;
+        for (std::size_t c = 0; c < trials.columns.size(); ++c)
+            if (c != participant) cells.push_back(cellAt(c));
+        return joined(cells, "\t") + "\n";
+    };
     const std::string task = labelOf(words.task);
-    std::vector<std::pair<std::string, std::string>> labels; // code, label
-    const auto observer = trials.column(trialColumns::observer);
+    std::map<std::string, std::string> labels; // by code
+    std::set<std::string> used;
     std::string people = "participant_id\tcode\tobserver\n";
     for (const CsvRow& row : trials.rows) {
-        const std::string& code = row.cells[*participant];
-        auto found = std::ranges::find(labels, code, &std::pair<std::string, std::string>::first);
-        if (found == labels.end()) {
-            std::string label = labelOf(code);
-            for (int number = 2;
-                 std::ranges::count(labels, label, &std::pair<std::string, std::string>::second) > 0;
-                 ++number)
+        const std::string& code = row.cells[participant];
+        const auto [found, isNew] = labels.try_emplace(code, labelOf(code));
+        std::string& label = found->second;
+        if (isNew) {
+            for (int number = 2; !used.insert(label).second; ++number)
                 label = labelOf(code) + "x" + std::to_string(number);
-            found = labels.insert(labels.end(), {code, label});
             people += "sub-" + label + "\t" + cellOf(code) + "\t" +
-                      (observer ? cellOf(row.cells[*observer]) : "n/a") + "\n";
+                      cellOf(trials.cell(row, trialColumns::observer)) + "\n";
         }
-        const std::string subject = "sub-" + found->second;
-        std::string& own = files[subject + "/beh/" + subject + "_task-" + task + "_beh.tsv"];
-        if (own.empty()) own = header + "\n";
-        bool isFirst = true;
-        for (std::size_t c = 0; c < trials.columns.size(); ++c) {
-            if (c == *participant) continue;
-            if (!std::exchange(isFirst, false)) own += '\t';
-            own += cellOf(row.cells[c]);
-        }
-        own += '\n';
+        std::string& own = files["sub-" + label + "/beh/sub-" + label + "_task-" + task + "_beh.tsv"];
+        if (own.empty()) own = lineOf([&](std::size_t c) { return bidsName(trials.columns[c]); });
+        own += lineOf([&](std::size_t c) { return cellOf(row.cells[c]); });
     }
     files["participants.tsv"] = people;
     files["participants.json"] = jsonLines(OrderedJson{
@@ -197,7 +186,7 @@ std::map<std::string, std::string> bidsDataset(const CsvTable& trials, const Bid
          {{"Description", "Code of the participant in the trial files; no other personal datum is kept"}}},
         {"observer", meanings()["observer"]}});
     files["dataset_description.json"] = description(words);
-    files["task-" + task + "_beh.json"] = sidecar(trials, *participant, words);
+    files["task-" + task + "_beh.json"] = sidecar(trials, participant, words);
     files["README"] = words.name +
                       "\n\nBehaviour of a study with physvib: a row per trial, in the order in which it was "
                       "done. Column meanings: task-" +

@@ -56,8 +56,7 @@ void tellApparatus(ReportBuilder& report) {
         for (const std::string& word : kind) table.cell(word);
         table.row(felt.trials, felt.known, felt.limited, felt.mostLimitedDb);
     }
-    report.addTable("apparatus.csv", table.text());
-    report.page.table(table.text(), "apparatus.csv");
+    report.show("apparatus.csv", table);
 }
 
 // Report section on levels and exposure, from the columns level_db, peak_g, rms_g and a8_m_per_s2.
@@ -104,8 +103,7 @@ void tellStimuli(ReportBuilder& report) {
             table.row(key[0], key[1], key[2], key[3], column, own.size(), *std::ranges::min_element(own),
                       Moments(own).mean, *std::ranges::max_element(own));
     if (table.text() == empty) return;
-    report.addTable("levels-by-stimulus.csv", table.text());
-    report.page.table(table.text(), "levels-by-stimulus.csv", 200, true);
+    report.show("levels-by-stimulus.csv", table, 200, true);
 }
 
 } // namespace
@@ -128,15 +126,13 @@ void tellDoses(ReportBuilder& report) {
             // means of adaptive levels and accumulated exposure have no meaning
             const bool hasMean = column == trialColumns::peakG || column == trialColumns::rmsG;
             table.row(key[0], key[1], column, own.size(), *std::ranges::min_element(own),
-                      hasMean ? std::optional{Moments(own).mean} : std::nullopt,
-                      *std::ranges::max_element(own));
+                      onlyIf(hasMean, Moments(own).mean), *std::ranges::max_element(own));
         }
     }
     if (meanings.empty()) return;
     report.page.subheading("Levels and exposure");
-    report.addTable("levels-and-exposure.csv", table.text());
     report.page.list(meanings);
-    report.page.table(table.text(), "levels-and-exposure.csv");
+    report.show("levels-and-exposure.csv", table);
     tellStimuli(report);
 }
 
@@ -187,10 +183,9 @@ void tellOrders(ReportBuilder& report) {
     for (const auto& [participant, order] : orders)
         for (std::size_t place = 0; place < order.size(); ++place)
             table.row(participant, place + 1, order[place]);
-    report.addTable("orders.csv", table.text());
     report.page.subheading("Orders of the conditions");
     report.page.table(balance.text(), "participants by place");
-    report.page.table(table.text(), "orders.csv", 200, true);
+    report.show("orders.csv", table, 200, true);
 }
 
 } // namespace physvib

@@ -79,6 +79,12 @@ public:
 
     /// Adds a table. Precondition: its name is unused.
     void addTable(const std::string& name, std::string csv) { tables_[name] = std::move(csv); }
+    /// Adds a table, and shows it on the page.
+    void show(const std::string& name, const ExportTable& table, std::size_t mostRows = 60,
+              bool isFolded = false) {
+        addTable(name, table.text());
+        page.table(table.text(), name, mostRows, isFolded);
+    }
     const std::string& tableText(const std::string& name) const { return tables_.at(name); }
     /// What a reader finds in the table of all trials.
     auto read(auto reader, const auto&... how) const {

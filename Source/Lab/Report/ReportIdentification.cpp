@@ -46,12 +46,8 @@ std::string stimulusChart(ReportBuilder& report, const IdentifiedCondition& cond
         rows = std::max(rows, cell->row);
         columns = std::max(columns, cell->column);
     }
-    GridChart chart{report.frame(condition.condition + (tolerance ? ", 1 step of tolerance" : "")),
-                    "row",
-                    "column",
-                    {},
-                    {},
-                    {}};
+    GridChart chart{report.frame(condition.condition + (tolerance ? ", 1 step of tolerance" : "")), "row",
+                    "column"};
     chart.most = 100.0;
     chart.width = 225.0;
     for (int r = 1; r <= rows; ++r) chart.rows.push_back(std::to_string(r));
@@ -137,8 +133,7 @@ using Places = std::vector<StudyCondition<LocationTrial>>;
 std::string perceivedChart(ReportBuilder& report, const Places& places, bool isRow) {
     LineChart chart{report.frame(isRow ? "Perceived row" : "Perceived column"),
                     isRow ? "intended target row" : "intended target column",
-                    isRow ? "perceived, share of the height" : "perceived, share of the width",
-                    {}};
+                    isRow ? "perceived, share of the height" : "perceived, share of the width"};
     chart.width = 335.0;
     chart.height = 330.0;
     chart.yRange = {0.0, 1.0};
@@ -147,7 +142,7 @@ std::string perceivedChart(ReportBuilder& report, const Places& places, bool isR
         for (const LocationTrial& trial : places[i].trials)
             answers[isRow ? trial.targetRow : trial.targetColumn][trial.participant].push_back(
                 isRow ? trial.y : trial.x);
-        LineSeries series{places[i].name, {}};
+        LineSeries series{places[i].name};
         series.style = i;
         for (const auto& [line, people] : answers) {
             std::vector<double> means;

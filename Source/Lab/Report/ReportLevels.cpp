@@ -16,10 +16,8 @@ namespace {
 
 /// Two alternatives, unless the protocol has more.
 double guessOf(const ReportTrials& trials) {
-    if (!trials.protocol) return trials.guess;
-    const auto& sessions = trials.protocol->sessions;
-    const auto adaptive = std::ranges::find_if(sessions, &SessionPlan::adaptedAlternative);
-    return adaptive != sessions.end() ? adaptive->guessRate() : trials.guess;
+    const auto adaptive = std::ranges::find_if(trials.sessions(), &SessionPlan::adaptedAlternative);
+    return adaptive != trials.sessions().end() ? adaptive->guessRate() : trials.guess;
 }
 
 /// Of tables that do not say how levels were chosen.
@@ -34,12 +32,11 @@ void tellFits(ReportBuilder& report) {
 /// Where runs of right answers and the sizes of steps up and down balance (Levitt 1971; Kaernbach 1991).
 std::string converging(const ReportTrials& trials) {
     std::set<std::string> shares;
-    if (trials.protocol)
-        for (const SessionPlan& session : trials.protocol->sessions)
-            if (const auto& rule = session.staircase; rule && !session.isTraining)
-                shares.insert(numberText(
-                    std::round(1000.0 * std::pow(rule->upRatio / (1.0 + rule->upRatio), 1.0 / rule->down)) /
-                    10.0));
+    for (const SessionPlan& session : trials.sessions())
+        if (const auto& rule = session.staircase; rule && !session.isTraining)
+            shares.insert(numberText(
+                std::round(1000.0 * std::pow(rule->upRatio / (1.0 + rule->upRatio), 1.0 / rule->down)) /
+                10.0));
     return shares.empty() ? "." : "; converges to " + joined(shares, " or ") + " % correct.";
 }
 
@@ -99,8 +96,7 @@ void tellMagnitudes(ReportBuilder& report, const std::vector<LevelSummary>& summ
 /// Adjustments at an end of their range.
 void tellEndsOfRanges(ReportBuilder& report) {
     const Cells cell{report.trials.all};
-    if (!report.trials.protocol) return;
-    for (const SessionPlan& plan : report.trials.protocol->sessions) {
+    for (const SessionPlan& plan : report.trials.sessions()) {
         std::size_t trials = 0, atEnd = 0;
         for (const CsvRow& row : report.trials.all.rows) {
             if (!plan.adjustment || cell(row, "session") != plan.name) continue;
@@ -117,11 +113,10 @@ void tellEndsOfRanges(ReportBuilder& report) {
 /// What all adjustments are compared with, where that has one name and one level.
 std::optional<std::pair<double, std::string>> comparedLevel(const ReportTrials& trials) {
     std::set<std::pair<double, std::string>> all;
-    if (trials.protocol)
-        for (const SessionPlan& plan : trials.protocol->sessions)
-            for (const Alternative& one : plan.alternatives)
-                if (plan.adjustment && one.name != plan.adjustment->alternative)
-                    all.emplace(one.levelDb, one.name);
+    for (const SessionPlan& plan : trials.sessions())
+        for (const Alternative& one : plan.alternatives)
+            if (plan.adjustment && one.name != plan.adjustment->alternative)
+                all.emplace(one.levelDb, one.name);
     return all.size() == 1 ? std::optional{*all.begin()} : std::nullopt;
 }
 
@@ -234,8 +229,7 @@ void tellShares(ReportBuilder& report, const StudyCondition<ChoiceTrial>& sessio
 void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondition<RatingTrial>& session) {
     const auto summaries = withoutIntervalsOfPoints(summariseRatings(session.trials), report.options(), data);
     std::set<int> all; // points of the scales of this session, or of all where they are not parted
-    for (const SessionPlan& plan :
-         report.trials.protocol ? report.trials.protocol->sessions : std::vector<SessionPlan>{})
+    for (const SessionPlan& plan : report.trials.sessions())
         if (plan.answer() == AnswerKind::scores && !plan.isTraining &&
             (session.name.empty() || session.name == plan.name))
             all.insert(plan.points);
@@ -257,9 +251,7 @@ void tellScores(ReportBuilder& report, const RatingData& data, const StudyCondit
 void tellConstantStimuli(ReportBuilder& report) {
     AnalysisJob fit = report.options();
     fit.level = "stimulus";
-    const auto sessions =
-        report.trials.protocol ? report.trials.protocol->sessions : std::vector<SessionPlan>{};
-    for (const SessionPlan& session : sessions) {
+    for (const SessionPlan& session : report.trials.sessions()) {
         if (session.isTraining) continue;
         if (!session.correct.empty()) fit.model.guess = session.guessRate();
         if (session.answers.size() == 2) // of one interval: half way is subjective equality
@@ -313,9 +305,8 @@ bool tellDescriptions(ReportBuilder& report) {
     if (counts.empty()) return false;
     ExportTable table{"descriptions", report.isSimulated(), "condition,session,stimulus,response,trials"};
     for (const auto& [key, trials] : counts) table.row(key[0], key[1], key[2], key[3], trials);
-    report.addTable("descriptions.csv", table.text());
     report.page.heading("Answers in words");
-    report.page.table(report.tableText("descriptions.csv"), "descriptions.csv");
+    report.show("descriptions.csv", table);
     return true;
 }
 

@@ -118,8 +118,7 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
     for (const auto& [code, own] : attended) {
         if (facts.isExcluded(code)) continue;
         ++analysed;
-        const PersonFacts* const known = facts.person(code);
-        const PersonFacts person = known != nullptr ? *known : PersonFacts{};
+        const PersonFacts& person = facts.person(code);
         if (person.ageYears) ages.push_back(*person.ageYears);
         ++counts["sex"][person.sex], ++counts["handedness"][person.handedness];
         if (own.main > 0) ++counts["group"][own.group.empty() ? person.group : own.group];
@@ -174,8 +173,7 @@ void tellParticipants(ReportBuilder& report) {
         table.cells(code, own.number, own.observer, own.main, own.training, own.unanswered + own.ranOut,
                     own.seconds.empty() ? std::nullopt : std::optional{median(own.seconds)});
         if (!facts.people.empty()) {
-            const PersonFacts* const person = facts.person(code);
-            const PersonFacts one = person != nullptr ? *person : PersonFacts{};
+            const PersonFacts& one = facts.person(code);
             table.cells(one.ageYears ? numberText(*one.ageYears) : std::string{}, one.sex, one.handedness,
                         one.excluded);
             if (hasGroups) table.cells(one.group);
@@ -187,10 +185,9 @@ void tellParticipants(ReportBuilder& report) {
     const auto usual = std::ranges::find_if(counts, [&](std::size_t count) {
         return have(count) > std::ssize(counts); // where more than half have as many
     });
-    report.addTable("participants.csv", table.text());
     for (const std::string& note : report.trials.notes) report.page.note(note);
     tellFacts(report, people);
-    report.page.table(table.text(), "participants.csv");
+    report.show("participants.csv", table);
     tellSameNumbers(report.page, people);
     ExportTable left{"left-out", report.isSimulated(),
                      "participant,condition,session,trials,planned,why,left_out"};
@@ -213,7 +210,7 @@ void tellParticipants(ReportBuilder& report) {
     for (const auto& [code, own] : people) {
         rows -= std::min(rows, own.unanswered); // told with whose they are
         if (facts.isExcluded(code)) {
-            of(code, own.main + own.training, "", facts.person(code)->excluded, "all trials");
+            of(code, own.main + own.training, "", facts.person(code).excluded, "all trials");
             continue;
         }
         if (canCompare && usual != counts.end() && own.main < *usual)
@@ -234,8 +231,7 @@ void tellParticipants(ReportBuilder& report) {
     if (!report.trials.protocol && isAdaptive)
         report.page.note(
             "no protocol: unfinished staircases and thresholds at an end of the levels are not known");
-    report.addTable("left-out.csv", left.text());
-    report.page.table(left.text(), "left-out.csv", 200);
+    report.show("left-out.csv", left, 200);
 }
 
 void tellProcedure(ReportBuilder& report) {
@@ -254,11 +250,10 @@ void tellProcedure(ReportBuilder& report) {
 void tellProvenance(ReportBuilder& report) {
     report.page.heading("Files, versions, seeds");
     std::vector<std::string> facts{std::string("report: physvib ") + PHYSVIB_VERSION};
-    for (const auto& [key, words] :
-         std::initializer_list<std::pair<const char*, const char*>>{{"version", "trials: physvib "},
-                                                                    {"protocol", "protocol: "},
-                                                                    {"hash", "hash of the protocol: "},
-                                                                    {"seed", "seed of all orders: "}})
+    for (const auto& [key, words] : {std::pair{"version", "trials: physvib "},
+                                     {"protocol", "protocol: "},
+                                     {"hash", "hash of the protocol: "},
+                                     {"seed", "seed of all orders: "}})
         if (const auto value = report.trials.common(key); !value.empty()) facts.push_back(words + value);
     report.page.list(facts);
     report.page.subheading("Tables");

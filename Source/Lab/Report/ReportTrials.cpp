@@ -167,10 +167,8 @@ std::string takeFacts(ReportTrials& trials, StudyFacts facts) {
     if (!trials.all.column(trialColumns::group) &&
         std::ranges::any_of(people, [](const PersonFacts& one) { return !one.group.empty(); })) {
         trials.all.columns.emplace_back(trialColumns::group);
-        for (CsvRow& row : trials.all.rows) {
-            const PersonFacts* const person = trials.facts.person(row.cells[*participant]);
-            row.cells.push_back(person != nullptr ? person->group : std::string{});
-        }
+        for (CsvRow& row : trials.all.rows)
+            row.cells.push_back(trials.facts.person(row.cells[*participant]).group);
     }
     return trials.all.rows.empty() ? trials.files.front().name +
                                          ": --people: expected a participant who is not excluded, found none"
@@ -181,9 +179,8 @@ std::string trialsCsv(const ReportTrials& trials, const std::string& firstLine) 
     std::string text = firstLine;
     text += csvLine(trials.all.columns);
     std::map<std::string, std::string> offered; // answers to one stimulus, which stand in no row
-    if (trials.protocol)
-        for (const SessionPlan& session : trials.protocol->sessions)
-            if (!session.answers.empty()) offered[session.name] = joined(session.answers, "|");
+    for (const SessionPlan& session : trials.sessions())
+        if (!session.answers.empty()) offered[session.name] = joined(session.answers, "|");
     const Cells cell{trials.all};
     const auto parts = trials.all.column("parts");
     for (const CsvRow& row : trials.all.rows) {
@@ -212,10 +209,8 @@ Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_v
     const CsvTable& table = read.value;
     for (const std::string& column : table.columns)
         if (std::ranges::find(peopleColumns, column) == peopleColumns.end())
-            return Failure{
-                table.name +
-                ": expected the columns participant, age, sex, handedness, group, excluded, found " +
-                inQuotes(column)};
+            return Failure{table.name + ": expected the columns " + listed(peopleColumns) + ", found " +
+                           inQuotes(column)};
     if (!table.column("participant"))
         return Failure{table.name + ": expected a column participant, found none"};
     std::vector<PersonFacts> people;
@@ -322,10 +317,10 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
         for (const ConditionPlan& planned : trials.protocol->conditions)
             for (const SessionPlan& plan : trials.protocol->sessions) {
                 if (plan.answer() == AnswerKind::wish) continue;
-                const Answers& answers = runs[{who, planned.name, plan.name}];
+                const RunKey key{who, planned.name, plan.name};
+                const Answers& answers = runs[key];
                 const std::size_t most =
                     static_cast<std::size_t>(mostTrialsOf(plan, stimuliOf(planned).size()));
-                const RunKey key{who, planned.name, plan.name};
                 std::string cutShort;
                 const bool isOver =
                     !isUnfinished(plan, answers, most - std::min(most, notLeft[key]), cutShort);

@@ -37,14 +37,14 @@ struct StudyFacts {
     std::string plan{};          ///< text of the plan (StudyReport.h); empty: none was given
     bool operator==(const StudyFacts&) const = default;
 
-    /// Null if the table has no such participant. Any thread.
-    const PersonFacts* person(std::string_view participant) const noexcept {
+    /// Nothing is known of who is not in the table. Any thread.
+    const PersonFacts& person(std::string_view participant) const noexcept {
+        static const PersonFacts none;
         const auto found = std::ranges::find(people, participant, &PersonFacts::participant);
-        return found == people.end() ? nullptr : &*found;
+        return found == people.end() ? none : *found;
     }
     bool isExcluded(std::string_view participant) const noexcept {
-        const PersonFacts* const facts = person(participant);
-        return facts != nullptr && !facts->excluded.empty();
+        return !person(participant).excluded.empty();
     }
 };
 
@@ -74,6 +74,11 @@ struct ReportTrials {
 
     /// True if rows have a task, as in our own files; tables of other programs have less information.
     bool knowTasks() const { return all.column(trialColumns::task).has_value(); }
+    /// Those of the protocol; none if it is not known.
+    const std::vector<SessionPlan>& sessions() const {
+        static const std::vector<SessionPlan> none;
+        return protocol ? protocol->sessions : none;
+    }
     /// The value of a key if the first lines of all files agree; else empty.
     std::string common(const std::string& key) const;
 };

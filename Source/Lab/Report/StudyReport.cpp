@@ -63,10 +63,8 @@ std::string studyWords(const ReportTrials& trials) {
 /// Scales of so many points, whose scores have an order and no distances.
 std::vector<std::string> inPoints(const ReportTrials& trials) {
     std::vector<std::string> scales;
-    if (trials.protocol)
-        for (const SessionPlan& session : trials.protocol->sessions)
-            if (session.points > 0)
-                scales.insert(scales.end(), session.scores().begin(), session.scores().end());
+    for (const SessionPlan& session : trials.sessions())
+        if (session.points > 0) scales.insert(scales.end(), session.scores().begin(), session.scores().end());
     return scales;
 }
 
@@ -218,9 +216,8 @@ void addBids(StudyReport& report, const ReportTrials& trials) {
                     {},
                     trials.isSimulated};
     if (words.task.empty()) words.task = trials.files.front().name;
-    if (trials.protocol)
-        for (const SessionPlan& session : trials.protocol->sessions)
-            for (const auto& scale : session.scores()) words.columns[scale] = scoreWords(session, scale);
+    for (const SessionPlan& session : trials.sessions())
+        for (const auto& scale : session.scores()) words.columns[scale] = scoreWords(session, scale);
     for (const char* key : {"hash", "seed", "version"})
         if (const std::string value = trials.common(key); !value.empty()) words.source[key] = value;
     for (auto& [name, text] : bidsDataset(trials.all, words)) report.files["bids/" + name] = std::move(text);

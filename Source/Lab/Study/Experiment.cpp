@@ -156,12 +156,6 @@ void Experiment::addAlternatives(Trial& trial, bool isSwapped) {
     }
 }
 
-std::string Experiment::choiceRefusal(const Answer& answer) const {
-    const auto& words = session().answers.empty() ? trial_->parts : session().answers;
-    const bool isThere = std::ranges::find(words, answer.response) != words.end();
-    return isThere ? "" : "expected one of the alternatives, found " + answer.response;
-}
-
 std::string Experiment::refusal(const Answer& answer) const {
     const SessionPlan& s = session();
     const auto isLabel = [&] {
@@ -177,7 +171,11 @@ std::string Experiment::refusal(const Answer& answer) const {
     case AnswerKind::label:
         return isLabel() ? "" : "expected the label of a stimulus, found " + answer.response;
     case AnswerKind::place: return isOnField(answer.place) ? "" : "expected a place on the field";
-    case AnswerKind::choice: return choiceRefusal(answer);
+    case AnswerKind::choice: {
+        const auto& words = s.answers.empty() ? trial_->parts : s.answers;
+        const bool isThere = std::ranges::find(words, answer.response) != words.end();
+        return isThere ? "" : "expected one of the alternatives, found " + answer.response;
+    }
     case AnswerKind::scores:
         return answer.scores.size() == s.scores().size() &&
                        std::ranges::all_of(answer.scores, [&](double score) { return isScore(s, score); })
@@ -307,10 +305,16 @@ std::optional<bool> isCorrect(const Protocol& protocol, const TrialRecord& recor
 
 std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record) {
     const ConditionPlan& condition = protocol.conditions[record.trial.condition];
-    const JobMaker maker{protocol, condition, record};
     const SessionPlan& session = protocol.sessions[record.trial.session];
     std::vector<TrialJob> jobs;
     if (session.isOnce) return jobs;
+    const auto add = [&](const TrialRecord& of, const Part& part) {
+        jobs.push_back(std::visit(
+            [&](const auto& set) {
+                return JobMaker{protocol, condition, of}(set, part);
+            },
+            condition.stimuli));
+    };
     const bool hasModulus = !session.modulus.empty() && record.trial.parts.size() == 2;
     if (hasModulus || (session.comparesPairs && !record.trial.parts.empty())) { // parts are stimuli
         TrialRecord one = record;
@@ -318,26 +322,19 @@ std::vector<TrialJob> jobsOf(const Protocol& protocol, const TrialRecord& record
             one.trial.stimulus = !hasModulus ? record.trial.parts[i]
                                  : i == 0    ? session.modulus
                                              : record.trial.stimulus;
-            jobs.push_back(std::visit(
-                [&](const auto& set) {
-                    return JobMaker{protocol, condition, one}(set, Part{});
-                },
-                condition.stimuli));
+            add(one, {});
         }
         return jobs;
     }
-    const auto add = [&](const Part& part) {
-        jobs.push_back(std::visit([&](const auto& set) { return maker(set, part); }, condition.stimuli));
-    };
     for (std::size_t i = 0; i < record.trial.parts.size(); ++i) {
         const std::string& name = record.trial.parts[i];
         // an adjusted alternative is played at the answered level
         const bool isAdjusted = session.adjustment && session.adjustment->alternative == name;
-        add({name, isAdjusted                             ? record.answer.value
-                   : i < record.trial.partLevelsDb.size() ? record.trial.partLevelsDb[i]
-                                                          : 0.0});
+        add(record, {name, isAdjusted                             ? record.answer.value
+                           : i < record.trial.partLevelsDb.size() ? record.trial.partLevelsDb[i]
+                                                                  : 0.0});
     }
-    if (jobs.empty()) add({{}, 0.0});
+    if (jobs.empty()) add(record, {});
     return jobs;
 }
 

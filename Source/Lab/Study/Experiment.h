@@ -47,8 +47,6 @@ std::vector<PlannedTrial> sessionOrder(const SessionPlan& session, std::size_t s
 
 class Staircase {
 public:
-    explicit Staircase(const StaircasePlan& plan)
-        : Staircase{plan, plan.startDb} {}
     Staircase(const StaircasePlan& plan, double startDb)
         : plan_{plan}
         , levelDb_{startDb}
@@ -365,7 +363,6 @@ private:
     Trial nextTrial();
     double startOf(const Adjustment& adjustment, int trial) const;
     void addAlternatives(Trial& trial, bool isSwapped);
-    std::string choiceRefusal(const Answer& answer) const;
     SeededRandom randomFor(const std::string& purpose) const;
     std::size_t conditionIndex() const { return conditions_[conditionAt_]; }
     const SessionPlan& plan() const { return protocol_.sessions[sessionAt_]; }

@@ -134,8 +134,7 @@ inline double bitsFor(std::size_t meanings) noexcept {
 
 /// Share of the stimulus' trials that were answered correctly. Any thread.
 inline double shareCorrect(const ConfusionMatrix& matrix, std::size_t stimulus) {
-    std::uint64_t total = 0;
-    for (std::size_t j = 0; j < matrix.responses(); ++j) total += matrix.count(stimulus, j);
+    const std::uint64_t total = matrix.stimulusTotals()[stimulus];
     return total > 0 ? static_cast<double>(matrix.count(stimulus, stimulus)) / static_cast<double>(total)
                      : 0.0;
 }

@@ -4,6 +4,7 @@
 #include "Lab/Study/Summaries.h"
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -79,13 +80,6 @@ PlaceNormal findCovariances(const std::vector<LocationTrial>& trials, ResponseNo
     return pooled;
 }
 
-void borrow(PlaceNormal& normal, const PlaceNormal& pooled) noexcept {
-    normal.varianceX = pooled.varianceX;
-    normal.varianceY = pooled.varianceY;
-    normal.covariance = pooled.covariance;
-    normal.isBorrowed = true;
-}
-
 void mend(ResponseNormals& made, const PlaceNormal& pooled) {
     const bool canBorrow = canBeInverted(pooled);
     for (std::size_t i = 0; i < made.normals.size() && made.fault.empty(); ++i) {
@@ -99,7 +93,8 @@ void mend(ResponseNormals& made, const PlaceNormal& pooled) {
             made.warnings.push_back(name + ": " + std::to_string(normal.responses) + " responses" +
                                     (normal.responses < 3 ? "" : " on one line") +
                                     ", the condition's pooled covariance is taken");
-            borrow(normal, pooled);
+            normal = {normal.responses, normal.meanX,      normal.meanY, pooled.varianceX,
+                      pooled.varianceY, pooled.covariance, true};
         } else {
             made.fault = name + ": expected three or more responses that are not on one line, and the "
                                 "condition has no pooled covariance to take instead";
@@ -201,7 +196,7 @@ std::vector<std::vector<const PlaceTrial*>> groupedBy(const std::vector<PlaceTri
 template <class Value>
 Moments momentsOf(const std::vector<const PlaceTrial*>& trials, Value value) {
     std::vector<double> values;
-    for (const PlaceTrial* trial : trials) values.push_back(value(*trial));
+    for (const PlaceTrial* trial : trials) values.push_back(std::invoke(value, *trial));
     return Moments{values};
 }
 
@@ -212,8 +207,8 @@ TargetError errorOf(const std::vector<const PlaceTrial*>& trials) {
         trials.front()->participant,
         trials.front()->target,
         trials.size(),
-        momentsOf(trials, [](const PlaceTrial& t) { return t.trueX; }).mean,
-        momentsOf(trials, [](const PlaceTrial& t) { return t.trueY; }).mean,
+        momentsOf(trials, &PlaceTrial::trueX).mean,
+        momentsOf(trials, &PlaceTrial::trueY).mean,
         dx.mean,
         dy.mean,
         std::hypot(dx.deviation, dy.deviation),
@@ -223,8 +218,7 @@ TargetError errorOf(const std::vector<const PlaceTrial*>& trials) {
 /// Least-squares slope; nullopt if all true places are equal, but for rounding.
 std::optional<double> slope(const std::vector<const PlaceTrial*>& trials, double PlaceTrial::*truth,
                             double PlaceTrial::*answer) {
-    const double meanTrue = momentsOf(trials, [=](const PlaceTrial&t) { return t.*truth; }).mean,
-                 meanAnswer = momentsOf(trials, [=](const PlaceTrial&t) { return t.*answer; }).mean;
+    const double meanTrue = momentsOf(trials, truth).mean, meanAnswer = momentsOf(trials, answer).mean;
     double squares = 0.0, products = 0.0, size = 0.0;
     for (const PlaceTrial* t : trials)
         size += t->*truth * t->*truth, squares += (t->*truth - meanTrue) * (t->*truth - meanTrue),

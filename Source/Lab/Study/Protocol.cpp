@@ -4,6 +4,7 @@
 #include "Io/Text/NumberText.h"
 #include "Lab/Study/Experiment.h"
 #include <cmath>
+#include <tuple>
 
 namespace physvib {
 namespace {
@@ -11,9 +12,11 @@ namespace {
 constexpr double mostStimuli = 4096;     // per condition; a session of this size takes a day
 constexpr double mostTrials = 100'000.0; // per session and condition; this number takes a week
 
-bool sharesNames(const auto& items, auto nameOf) {
+template <class NameOf = std::identity>
+bool sharesNames(const auto& items, NameOf nameOf = {}) {
     std::set<std::string> names;
-    return !std::ranges::all_of(items, [&](const auto& item) { return names.insert(nameOf(item)).second; });
+    return !std::ranges::all_of(
+        items, [&](const auto& item) { return names.insert(std::invoke(nameOf, item)).second; });
 }
 
 bool hasAlternative(const SessionPlan& s, const std::string& name) {
@@ -39,13 +42,12 @@ std::string taskFault(const SessionPlan& s) {
     if (!s.answers.empty() && (answer != Kind::choice || s.answers.size() < 2 || !s.alternatives.empty() ||
                                s.adaptedAlternative() || s.roveDb > 0.0))
         return "answers: expected two or more of the task choose, in place of alternatives";
-    if (sharesNames(s.answers, [](const auto& word) { return word; }))
-        return "answers: expected no two alike";
+    if (sharesNames(s.answers)) return "answers: expected no two alike";
     if (compares && s.answers.empty() && s.alternatives.size() < 2)
         return "alternatives: expected two or more, found " + std::to_string(s.alternatives.size());
     if (!compares && !s.alternatives.empty())
         return "alternatives: expected them of " + tasksThatAnswer({Kind::choice, Kind::level}) + " only";
-    if (sharesNames(s.alternatives, [](const auto& a) { return a.name; }))
+    if (sharesNames(s.alternatives, &Alternative::name))
         return "alternatives: expected a name of its own for each";
     if (s.bothOrders && !s.comparesPairs && (answer != Kind::choice || s.alternatives.size() != 2))
         return "both_orders: expected it of two alternatives to choose from, or of pairs";
@@ -55,8 +57,7 @@ std::string taskFault(const SessionPlan& s) {
         return "definitions: expected one of each scale";
     if (!s.anchors.empty() && s.anchors.size() != 2)
         return "anchors: expected two, of the left end and of the right";
-    if (sharesNames(s.scales, [](const auto& scale) { return scale; }))
-        return "scales: expected a name of its own for each";
+    if (sharesNames(s.scales)) return "scales: expected a name of its own for each";
     if (answer != Kind::scores && (!s.objects.empty() || s.points > 0 || s.comparesPairs))
         return "objects, points, pairs: expected them of " + tasksThatAnswer({Kind::scores}) + " only";
     if (s.points == 1) return "points: expected 2 or more, found 1";
@@ -101,14 +102,12 @@ std::string taskFault(const SessionPlan& s) {
         return "correct: expected the name of an alternative to choose, without a staircase or QUEST+";
     if (s.untilCorrect > 0 && (s.adaptedAlternative() || !s.hasCorrectAnswers()))
         return "until_correct: expected it where answers are right or wrong, without a staircase or QUEST+";
-    if (s.roveDb > 0.0 && answer != Kind::choice)
-        return "rove_db: expected it of " + tasksThatAnswer({Kind::choice}) + " only";
-    if (!s.modulus.empty() && answer != Kind::number)
-        return "modulus: expected it of " + tasksThatAnswer({Kind::number}) + " only";
-    if (s.mayBeEmpty && answer != Kind::words)
-        return "may_be_empty: expected it of " + tasksThatAnswer({Kind::words}) + " only";
-    if (answer != Kind::wish && s.fewestTouches > 0)
-        return "fewest_touches: expected it of " + tasksThatAnswer({Kind::wish}) + " only";
+    for (const auto& [isUsed, field, kind] : {std::tuple{s.roveDb > 0.0, "rove_db", Kind::choice},
+                                              {!s.modulus.empty(), "modulus", Kind::number},
+                                              {s.mayBeEmpty, "may_be_empty", Kind::words},
+                                              {s.fewestTouches > 0, "fewest_touches", Kind::wish}})
+        if (isUsed && answer != kind)
+            return field + std::string{": expected it of "} + tasksThatAnswer({kind}) + " only";
     return {};
 }
 
@@ -198,14 +197,13 @@ std::string conditionFault(const Protocol& p, const ConditionPlan& c) {
             if (parsePatternLabel(patternLabel({seconds, 1, {}}))->pulseSeconds != seconds)
                 return "pulse_s: expected whole milliseconds";
     if (const CallSet* calls = callSetOf(c.stimuli)) {
-        if (sharesNames(calls->factors, [](const auto& f) { return f.name; }))
+        if (sharesNames(calls->factors, &StudyFactor::name))
             return "factors: expected a name of its own for each";
         if (std::string fault = callsFault(p, c, *calls); !fault.empty()) return fault;
         if (std::holds_alternative<WorldSet>(c.stimuli) && !calls->call.starts_with("render "))
             return "call: expected render and a scene, which a world needs";
     }
-    if (sharesNames(stimuliOf(c), [](const auto& item) { return item.label; }))
-        return "stimuli: expected no two of the same label";
+    if (sharesNames(stimuliOf(c), &StimulusItem::label)) return "stimuli: expected no two of the same label";
     return {};
 }
 
@@ -310,8 +308,7 @@ bool rovesApart(const ConditionPlan& condition) noexcept {
 
 std::string levelsFault(const Protocol& p) {
     for (const SessionPlan& s : p.sessions)
-        if (!s.levelsFile.empty())
-            if (std::string fault = levelsFault(p, s); !fault.empty()) return fault;
+        if (std::string fault = s.levelsFile.empty() ? "" : levelsFault(p, s); !fault.empty()) return fault;
     return {};
 }
 
@@ -332,14 +329,13 @@ std::string validate(const Protocol& p) {
             !isPlainPath(path) || !path.ends_with(".png"))
             return at("pictures", i, "file: expected a PNG file in the folder or below, of plain characters");
     }
-    if (sharesNames(p.pictures, [](const auto& picture) { return picture.material; }))
+    if (sharesNames(p.pictures, &MaterialPictureFile::material))
         return "pictures: expected a material of its own for each";
     if (p.conditions.empty()) return "conditions: expected one or more, found none";
     if (p.sessions.empty()) return "sessions: expected one or more, found none";
-    if (sharesNames(p.conditions, [](const auto& c) { return c.name; }))
+    if (sharesNames(p.conditions, &ConditionPlan::name))
         return "conditions: expected a name of its own for each";
-    if (sharesNames(p.sessions, [](const auto& s) { return s.name; }))
-        return "sessions: expected a name of its own for each";
+    if (sharesNames(p.sessions, &SessionPlan::name)) return "sessions: expected a name of its own for each";
     for (std::size_t i = 0; i < p.sessions.size(); ++i) {
         const SessionPlan& s = p.sessions[i];
         if (std::string fault = taskFault(s); !fault.empty()) return at("sessions", i, fault);

@@ -246,9 +246,9 @@ PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const Psycho
 
 // Groups trials by participant and fits each group.
 
-std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
-                                                               const PsychometricModel& model) {
-    std::vector<ParticipantPsychometric> fits;
+std::vector<OfParticipant<PsychometricFit>> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
+                                                                      const PsychometricModel& model) {
+    std::vector<OfParticipant<PsychometricFit>> fits;
     for (const auto& [participant, own] : byParticipant(trials)) {
         const auto counts = countByLevel(own, [](const LevelAnswer& trial) { return trial.counted(); });
         fits.push_back({participant, own.size(), fitPsychometric(counts, model)});
@@ -256,13 +256,10 @@ std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector
     return fits;
 }
 
-std::vector<ParticipantPowerLaw> powerLawByParticipant(const std::vector<LevelAnswer>& trials) {
-    std::vector<ParticipantPowerLaw> laws;
-    for (const auto& [participant, own] : byParticipant(trials)) {
-        std::vector<MagnitudeTrial> magnitudes;
-        for (const LevelAnswer& trial : own) magnitudes.push_back({trial.level, trial.answer});
-        laws.push_back({participant, own.size(), fitPowerLaw(magnitudes)});
-    }
+std::vector<OfParticipant<PowerLaw>> powerLawByParticipant(const std::vector<LevelAnswer>& trials) {
+    std::vector<OfParticipant<PowerLaw>> laws;
+    for (const auto& [participant, own] : byParticipant(trials))
+        laws.push_back({participant, own.size(), fitPowerLaw(own)});
     return laws;
 }
 

@@ -89,11 +89,14 @@ struct PsychometricFit {
 /// levels. A step has no width. Any thread (allocates).
 PsychometricFit fitPsychometric(std::span<const LevelCount> counts, const PsychometricModel& model);
 
-// Stevens' power law, magnitude = factor * level^exponent, fitted by least squares of logarithms.
-
-struct MagnitudeTrial {
-    double level = 0.0, magnitude = 0.0; ///< both > 0; the level is linear (g, not dB)
+/// A participant's answer at a level: 1 or 0, or a magnitude.
+struct LevelAnswer {
+    std::string participant;
+    double level = 0.0, answer = 0.0;
+    std::pair<double, bool> counted() const noexcept { return {level, answer > 0.5}; } ///< for countByLevel()
 };
+
+// Stevens' power law, magnitude = factor * level^exponent, fitted by least squares of logarithms.
 
 struct PowerLaw {
     std::string fault; ///< error in one line; if set, the rest is invalid
@@ -101,18 +104,18 @@ struct PowerLaw {
     double determination = 0.0; ///< r squared of the regression of logarithms
 };
 
-/// Fits one participant's trials. Average exponents over participants, but not factors, since each
-/// participant chooses the scale. Any thread.
-inline PowerLaw fitPowerLaw(std::span<const MagnitudeTrial> trials) {
+/// Fits one participant's trials, of magnitudes at linear levels (g, not dB). Average exponents over
+/// participants, but not factors, since each participant chooses the scale. Any thread.
+inline PowerLaw fitPowerLaw(std::span<const LevelAnswer> trials) {
     const auto n = static_cast<double>(trials.size());
     double meanX = 0.0, meanY = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
     for (const auto& trial : trials) {
-        if (!(trial.level > 0.0) || !(trial.magnitude > 0.0)) return {"expected levels and magnitudes > 0"};
+        if (!(trial.level > 0.0) || !(trial.answer > 0.0)) return {"expected levels and magnitudes > 0"};
         meanX += std::log(trial.level) / n;
-        meanY += std::log(trial.magnitude) / n;
+        meanY += std::log(trial.answer) / n;
     }
     for (const auto& trial : trials) {
-        const double x = std::log(trial.level) - meanX, y = std::log(trial.magnitude) - meanY;
+        const double x = std::log(trial.level) - meanX, y = std::log(trial.answer) - meanY;
         xx += x * x;
         xy += x * y;
         yy += y * y;
@@ -122,28 +125,17 @@ inline PowerLaw fitPowerLaw(std::span<const MagnitudeTrial> trials) {
     return {{}, exponent, std::exp(meanY - exponent * meanX), yy > 0.0 ? xy * xy / (xx * yy) : 1.0};
 }
 
-/// A participant's answer at a level: 1 or 0, or a magnitude.
-struct LevelAnswer {
-    std::string participant;
-    double level = 0.0, answer = 0.0;
-    std::pair<double, bool> counted() const noexcept { return {level, answer > 0.5}; } ///< for countByLevel()
-};
-
-struct ParticipantPsychometric {
+/// What a participant's trials are fitted by.
+template <class Fit>
+struct OfParticipant {
     std::string participant;
     std::size_t trials = 0;
-    PsychometricFit fit;
-};
-
-struct ParticipantPowerLaw {
-    std::string participant;
-    std::size_t trials = 0;
-    PowerLaw law;
+    Fit fit;
 };
 
 // One result per participant, in the order of first trials. Any thread (allocates).
-std::vector<ParticipantPsychometric> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
-                                                               const PsychometricModel& model);
-std::vector<ParticipantPowerLaw> powerLawByParticipant(const std::vector<LevelAnswer>& trials);
+std::vector<OfParticipant<PsychometricFit>> psychometricByParticipant(const std::vector<LevelAnswer>& trials,
+                                                                      const PsychometricModel& model);
+std::vector<OfParticipant<PowerLaw>> powerLawByParticipant(const std::vector<LevelAnswer>& trials);
 
 } // namespace physvib

@@ -106,7 +106,6 @@ JobFault faultOf(const StimulusJob& job) {
 
 namespace {
 
-namespace words = stimulusWords;
 constexpr std::string_view middles = "middles";
 
 class CallWriter {

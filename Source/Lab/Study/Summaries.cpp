@@ -51,6 +51,9 @@ double normalQuantile(double probability) {
 
 // Forced choices and ratings.
 
+namespace {
+
+/// 95 % interval of a median by ranks, as the sign test has it; of fewer than six values all that they span.
 RankInterval rankInterval(std::vector<double> values) {
     if (values.empty()) return {};
     std::ranges::sort(values);
@@ -61,6 +64,7 @@ RankInterval rankInterval(std::vector<double> values) {
     return {values[left], values[values.size() - 1 - left]};
 }
 
+/// "pair=wood", "size=very small" of "pair=wood size=very small".
 std::vector<std::string> factorWords(std::string_view condition) {
     std::vector<std::string> words;
     while (!condition.empty()) {
@@ -75,8 +79,6 @@ std::vector<std::string> factorWords(std::string_view condition) {
     }
     return words;
 }
-
-namespace {
 
 /// The factors in a condition's name: "size=small" of "pair=wood size=small", the letters of a method.
 std::set<std::string> factorsOf(const std::string& condition) {

@@ -32,10 +32,6 @@ struct RankInterval {
     double least = 0.0, most = 0.0;
 };
 
-/// 95 % interval of a median by ranks, as the sign test has it; of fewer than six values all that they span.
-/// Any thread (allocates).
-RankInterval rankInterval(std::vector<double> values);
-
 struct Moments {
     std::size_t n = 0;
     double mean = 0.0;
@@ -95,9 +91,6 @@ inline Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept 
 }
 
 // Summaries of forced choices and slider ratings by condition (thesis 5.2, 5.3).
-
-/// "pair=wood", "size=very small" of "pair=wood size=very small". Any thread (allocates).
-std::vector<std::string> factorWords(std::string_view condition);
 
 /// One forced choice: alternative, condition and participant (which may be empty).
 struct ChoiceTrial {

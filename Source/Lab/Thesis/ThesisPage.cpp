@@ -132,13 +132,6 @@ const std::vector<ThesisRow>& thesisRows() {
     return rows;
 }
 
-std::string thesisRowsCsv() {
-    ExportTable table{"thesis", false, "at,what,run,needs,misprint,differs"};
-    for (const ThesisRow& row : thesisRows())
-        table.row(row.at, row.what, row.run, row.needs, row.misprint, row.differs);
-    return table.text();
-}
-
 void ThesisPage::addFigure(const std::string& name, const std::vector<std::string>& charts,
                            const std::string& caption) {
     files[name + ".svg"] = chartSheet(charts);
@@ -150,7 +143,10 @@ ThesisPage thesisPage() {
                               "Printed figures are the thesis'; all drawings are ours."}};
     out.page.paragraph("Each call runs in a folder of its own, in this order: some read what others wrote. "
                        "Studies are rehearsed by a simulated observer.");
-    out.addTable("thesis.csv", thesisRowsCsv());
+    ExportTable rows{"thesis", false, "at,what,run,needs,misprint,differs"};
+    for (const ThesisRow& row : thesisRows())
+        rows.row(row.at, row.what, row.run, row.needs, row.misprint, row.differs);
+    out.addTable("thesis.csv", rows.text());
     out.page.heading("Modules (3.1.1)");
     for (const auto& [name, caption] :
          {std::pair{"fig3-1",

@@ -25,9 +25,6 @@ struct ThesisRow {
 /// has left. Made on first use; any thread.
 const std::vector<ThesisRow>& thesisRows();
 
-/// at,what,run,needs,misprint,differs. Any thread (allocates).
-std::string thesisRowsCsv();
-
 /// A page about the thesis under construction, with the files beside it.
 struct ThesisPage {
     ReportPage page;
@@ -60,9 +57,6 @@ struct Identification {
     double bits = 0.0, percentCorrect = 0.0;            ///< exact; percent 0: not printed by condition
     double bitsTolerance = 0.0, percentTolerance = 0.0; ///< one step of tolerance; 0: none
 };
-
-/// 3.2.2, over conditions
-inline constexpr double patternsPercentMean = 92.1, patternsPercentLeast = 89.2, patternsPercentMost = 95.0;
 
 inline constexpr std::array identifications{
     Identification{"patterns", "PHONE-2", 28, 4.55},
@@ -107,31 +101,5 @@ inline constexpr std::array counts{
                                           2.93, 3.05, 2.90, 1.65, 1.78, 3.04, 3.44, 3.12, 2.29,
                                           2.97, 2.62, 3.56, 2.29, 3.90, 3.24, 4.05, 3.45}},
 };
-
-inline constexpr double modelChosenPercent = 59.0; ///< 5.2.2, all votes
-
-/// 5.3.2: three of the eight methods are printed.
-struct Rating {
-    std::string_view method;
-    std::array<double, 3> scores{}; ///< realism, harmony, liking
-};
-inline constexpr std::array ratings{Rating{"AV-FV-DRV", {76.4, 68.9, 71.2}},
-                                    Rating{"AF-FF-DRV", {37.8, 43.5, 36.0}},
-                                    Rating{"AF-FF-DRF", {36.1, 42.2, 36.1}}};
-
-/// More for varied than for fixed, mean of the three scales: amplitude, frequency, decay rate (5.3.2).
-inline constexpr double amplitudeGain = 8.0, frequencyGain = 23.2, decayGain = 2.0;
-/// Means of the printed F(1, 19) of their scales (5.3.2; all are in printed-tests.R).
-inline constexpr double amplitudeF = (13.8 + 10.87) / 2.0, frequencyF = (56.49 + 32.98 + 59.74) / 3.0,
-                        decayF = 6.30;
-
-/// How many took part in each study, by our protocol.
-struct Participants {
-    std::string_view protocol;
-    int count = 0;
-};
-inline constexpr std::array participants{
-    Participants{"patterns", 12}, Participants{"phantom-grids", 18}, Participants{"phantom-places", 16},
-    Participants{"model-or-sound", 20}, Participants{"eight-methods", 20}};
 
 } // namespace physvib::thesis
