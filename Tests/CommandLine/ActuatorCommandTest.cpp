@@ -26,15 +26,15 @@ protected:
 
 TEST_F(ActuatorCommand, ListsWhatIsKnownAndLeavesTheRestEmpty) {
     const auto outcome = runs("actuators");
-    EXPECT_TRUE(holds(outcome.out, "\nlra-205,205,,,,,,,\"Park"));
-    EXPECT_TRUE(holds(outcome.out, "\nhaptuator-mark-2,,,90,1000,,,,\"Park"));
+    EXPECT_TRUE(has(outcome.out, "\nlra-205,205,,,,,,,\"Park"));
+    EXPECT_TRUE(has(outcome.out, "\nhaptuator-mark-2,,,90,1000,,,,\"Park"));
 }
 
 TEST_F(ActuatorCommand, EqualisesWithAProfileAndSaysUpToWhichLevel) {
     runs(render);
     const auto plain = read("a.wav");
     const auto outcome = runs(std::string{render} + "--actuator mine.json");
-    EXPECT_TRUE(holds(outcome.err, "equalised from 180 Hz to 230 Hz: flat up to -11."));
+    EXPECT_TRUE(has(outcome.err, "equalised from 180 Hz to 230 Hz: flat up to -11."));
     EXPECT_NE(read("a.wav"), plain);
     const auto equalised = read("a.wav");
     runs(std::string{render} + "--actuator mine.json --block 17");
@@ -48,17 +48,17 @@ TEST_F(ActuatorCommand, EqualisesWithAProfileAndSaysUpToWhichLevel) {
 TEST_F(ActuatorCommand, RemapsEventsInOrderAndWarnsOfMaterialsThatBecomeOne) {
     const auto outcome =
         runs(std::string{render} + "--actuator mine.json --equalise off --remap on --events b.csv");
-    EXPECT_TRUE(holds(outcome.err, "80 Hz and 349 Hz end at 196 Hz and 215 Hz, nearer than one JND of 18 %"));
-    EXPECT_TRUE(holds(outcome.err, "mine rings down with 53.7 /s"));
+    EXPECT_TRUE(has(outcome.err, "80 Hz and 349 Hz end at 196 Hz and 215 Hz, nearer than one JND of 18 %"));
+    EXPECT_TRUE(has(outcome.err, "mine rings down with 53.7 /s"));
     const auto moved = read("b.csv");
-    EXPECT_TRUE(holds(moved, "\n0.100000000,196."));
+    EXPECT_TRUE(has(moved, "\n0.100000000,196."));
     runs("render --from-events b.csv --layout phone1 --seconds 1 --out b.wav");
     // without the line on its origin
     const auto tail = [](const std::string& wav) { return wav.substr(wav.size() - 100'000); };
     EXPECT_EQ(tail(read("b.wav")), tail(read("a.wav")));
     const auto whole = runs("render --from-events hits.csv --layout phone1 --seconds 1 --out c.wav "
                             "--actuator haptuator-mark-2 --equalise off --remap on");
-    EXPECT_FALSE(holds(whole.err, "JND")); // there is room
+    EXPECT_FALSE(has(whole.err, "JND")); // there is room
 }
 
 TEST_F(ActuatorCommand, AMeasuredFullScaleReachesEveryLevelInG) {
@@ -68,19 +68,19 @@ TEST_F(ActuatorCommand, AMeasuredFullScaleReachesEveryLevelInG) {
     const auto own = call(std::string{render} + "--equalise off"),
                calibrated = call(std::string{render} + "--equalise off --actuator mine.json");
     ASSERT_EQ(calibrated.exitCode, 0) << calibrated.err;
-    EXPECT_TRUE(holds(own.out, "dBFS (0.0464 g)"));
-    EXPECT_TRUE(holds(calibrated.out, "dBFS (0.23 g)"));
+    EXPECT_TRUE(has(own.out, "dBFS (0.0464 g)"));
+    EXPECT_TRUE(has(calibrated.out, "dBFS (0.23 g)"));
     const std::string drop =
         "render drop --seconds 1 --out c.wav --events c.csv --layout phone1 --equalise off";
-    EXPECT_TRUE(holds(call(drop).out, "1 collision, 0.15 g to 0.15 g"));
-    EXPECT_TRUE(holds(call(drop + " --actuator mine.json").out, "1 collision, 0.73 g to 0.73 g"));
+    EXPECT_TRUE(has(call(drop).out, "1 collision, 0.15 g to 0.15 g"));
+    EXPECT_TRUE(has(call(drop + " --actuator mine.json").out, "1 collision, 0.73 g to 0.73 g"));
     EXPECT_EQ(call(std::string{render} + "--equalise off --actuator mine.json --method AF-FV-DRV").err, "")
         << "1.5 g are within 5 g";
     write("layout.json",
           R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "actuator": "mine.json"}]})");
     const auto other = call("render --from-events hits.csv --layout layout.json --actuator layout --equalise "
                             "off --seconds 1 --out two.wav");
-    EXPECT_TRUE(holds(other.err,
+    EXPECT_TRUE(has(other.err,
                       "layout.json: actuator A: levels are printed with full_scale_g 1 of the layout; "
                       "mine.json was measured as 5"));
 }
@@ -91,9 +91,9 @@ TEST_F(ActuatorCommand, LevelsAreToldInDecibelsAndInG) {
           R"({"extent_m": [0.1, 0.1], "enchanters": [{"x_m": 0, "y_m": 0, "full_scale_g": 1.4}]})");
     const auto outcome =
         call("render --from-events hits.csv --layout layout.json --seconds 1 --out a.wav --events b.csv");
-    EXPECT_TRUE(holds(outcome.out, "peak -6.1 dBFS (0.69 g)"));
+    EXPECT_TRUE(has(outcome.out, "peak -6.1 dBFS (0.69 g)"));
     EXPECT_TRUE(
-        holds(outcome.out, "2 collisions, 0.0098 g to 0.70 g, 1 under one step of an 8-bit converter"));
+        has(outcome.out, "2 collisions, 0.0098 g to 0.70 g, 1 under one step of an 8-bit converter"));
 }
 
 TEST_F(ActuatorCommand, WritesWhenAMotorWouldBeOn) {
@@ -104,7 +104,7 @@ TEST_F(ActuatorCommand, WritesWhenAMotorWouldBeOn) {
     EXPECT_EQ(text.substr(text.find('\n') + 1), "channel,on_s,off_s\n1,0.10,0.13\n1,0.90,1.00\n");
     runs("render --from-events hits.csv --layout phone1 --seconds 1 --pattern p.csv --threshold "
          "0.01 --block 7");
-    EXPECT_TRUE(holds(read("p.csv"), "1,0.50,0.53\n"));
+    EXPECT_TRUE(has(read("p.csv"), "1,0.50,0.53\n"));
 }
 
 TEST_F(ActuatorCommand, ScalesTheFileToTheVoltageOfTheActuator) {

@@ -67,8 +67,8 @@ TEST_F(CalibrateCommand, WiredTheOtherWayRoundAnActuatorIsAsStrong) {
 TEST_F(CalibrateCommand, WritesTheLayoutThatHasItsFullScale) {
     record(felt());
     const auto plain = call(std::string{pair} + "--g-per-unit 10");
-    EXPECT_TRUE(holds(plain.out, "full scale 5.0"));
-    EXPECT_TRUE(holds(plain.out, "--layout-out FILE.json")); // it is offered
+    EXPECT_TRUE(has(plain.out, "full scale 5.0"));
+    EXPECT_TRUE(has(plain.out, "--layout-out FILE.json")); // it is offered
     runs(std::string{pair} + "--g-per-unit 10 --layout phone4 --place B --layout-out four.json");
     const auto layout = loadLayout(folder_ / "four.json");
     ASSERT_TRUE(layout) << layout.error;
@@ -139,7 +139,7 @@ TEST_F(MaterialCommand, PrintsFrequencyAndDecayOfARenderedHit) {
     EXPECT_FALSE(std::getline(lines, more));
     EXPECT_NEAR(std::stod(row), 349, 0.17);
     EXPECT_NEAR(std::stod(row.substr(row.find(',') + 1)), 106.99, 0.53);
-    EXPECT_TRUE(holds(outcome.err, "confidence high"));
+    EXPECT_TRUE(has(outcome.err, "confidence high"));
     EXPECT_EQ(call("material hit.wav --band 90-1000").out, outcome.out);
     runs("material hit.wav --rule two-peaks");
 }
@@ -149,7 +149,7 @@ TEST_F(MaterialCommand, ListsTheThreeMeasuredPairsAndTheirSource) {
     EXPECT_EQ(outcome.out.rfind("# Table 5.1", 0), 0u) << outcome.out;
     for (const char* pair :
          {"\nconcrete block,80,34.13\n", "\nwooden board,349,106.99\n", "\nsteel plate,430,11.97\n"})
-        EXPECT_TRUE(holds(outcome.out, pair));
+        EXPECT_TRUE(has(outcome.out, pair));
 }
 
 TEST_F(MaterialCommand, BadRecordingsAreOneLine) {
@@ -190,7 +190,7 @@ TEST_F(MaterialCommand, TexturesOfARenderedScrapeAreThoseOfItsScene) {
     }
     std::getline(lines, cell);
     EXPECT_EQ(cell, "regular");
-    EXPECT_TRUE(holds(outcome.err, " grains a second, "));
+    EXPECT_TRUE(has(outcome.err, " grains a second, "));
 }
 
 TEST_F(MaterialCommand, ModesAreTheOvertonesOfABody) {

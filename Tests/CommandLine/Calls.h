@@ -3,7 +3,6 @@
 #pragma once
 #include "Io/Disk/ReadFile.h"
 #include "Support/Has.h"
-#include "Support/Holds.h"
 #include "Support/ReadWav.h"
 #include "TestPlaces.h"
 #include <algorithm>

@@ -153,10 +153,10 @@ TEST_F(ExportCommand, WritesAFileForEachEnchanterWhereAFormatHasOneChannel) {
     const auto outcome = runs("export shake-the-box --seconds 7 --to box.ahap");
     EXPECT_EQ(files().size(), 4u);
     for (const char* label : {"A", "B", "C", "D"})
-        EXPECT_TRUE(holds(read("box-" + std::string(label) + ".ahap"), "HapticContinuous"));
-    EXPECT_TRUE(holds(outcome.err, "a file for each actuator"));
-    EXPECT_TRUE(holds(outcome.err, "where a hit was is not carried"));
-    EXPECT_TRUE(holds(outcome.out, "box-D.ahap  1 channel, "));
+        EXPECT_TRUE(has(read("box-" + std::string(label) + ".ahap"), "HapticContinuous"));
+    EXPECT_TRUE(has(outcome.err, "a file for each actuator"));
+    EXPECT_TRUE(has(outcome.err, "where a hit was is not carried"));
+    EXPECT_TRUE(has(outcome.out, "box-D.ahap  1 channel, "));
 }
 
 TEST_F(ExportCommand, TurnsOneFormatIntoAnother) {
@@ -174,7 +174,7 @@ TEST_F(ExportCommand, TellsWhatOfAClipIsLeftOut) {
     for (const char* arguments : {"export a.ahap --to a.hjif", "render a.ahap --layout phone1 --out a.wav"}) {
         const auto outcome = runs(arguments);
         EXPECT_TRUE(
-            holds(outcome.err, "physvib: warning: a.ahap: left out: AttackTime (1), AudioCustom (1)\n"));
+            has(outcome.err, "physvib: warning: a.ahap: left out: AttackTime (1), AudioCustom (1)\n"));
     }
 }
 

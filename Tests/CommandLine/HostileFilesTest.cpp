@@ -24,7 +24,7 @@ protected:
     void refusesInLittle(const std::string& arguments, const std::string& words, std::size_t kept) const {
         const Outcome outcome = call(arguments, little);
         EXPECT_EQ(outcome.exitCode, 1) << arguments << "\nsaid: " << outcome.err;
-        EXPECT_TRUE(holds(outcome.err, words)) << arguments;
+        EXPECT_TRUE(has(outcome.err, words)) << arguments;
         EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
         EXPECT_EQ(cleanLine(outcome.err), outcome.err.substr(0, outcome.err.size() - 1) + "\\x0a");
         EXPECT_EQ(files().size(), kept) << arguments;
@@ -240,8 +240,8 @@ TEST_F(StrangersCall, NoLinkLeadsOutOfTheFolder) {
                                         "' && '" PHYSVIB_PROGRAM "' " + arguments + " >../.out 2>../.err")
                                            .c_str());
         EXPECT_EQ(WEXITSTATUS(status), 1) << arguments;
-        EXPECT_TRUE(holds(read(".err"), "a link that leads elsewhere")) << arguments;
-        EXPECT_FALSE(holds(read(".err"), "physvib_protocol")) << "and nothing of what is there";
+        EXPECT_TRUE(has(read(".err"), "a link that leads elsewhere")) << arguments;
+        EXPECT_FALSE(has(read(".err"), "physvib_protocol")) << "and nothing of what is there";
     };
     for (const std::string path : {"scene.json", "up/secret.json"}) {
         writeProtocol("render " + path + " --set a={a}{b}");

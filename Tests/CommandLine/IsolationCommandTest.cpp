@@ -70,7 +70,7 @@ TEST_F(Isolation, AFolderOfConditionsIsATableOfGammaWithCurves) {
     EXPECT_EQ(std::count(all.begin(), all.end(), '\n'), 9) << all;
     const std::string picture = read("gamma.svg");
     for (const char* words : {"<title>Isolation, axis x</title>", ">0030-15, 3 mm, 1.8 V<"})
-        EXPECT_TRUE(holds(picture, words));
+        EXPECT_TRUE(has(picture, words));
 }
 
 TEST_F(Isolation, ASoftenerIsAFactorOfItsOwn) {
@@ -85,7 +85,7 @@ TEST_F(Isolation, ASoftenerIsAFactorOfItsOwn) {
     EXPECT_TRUE(outcome.out.starts_with("material,softener_percent,thickness_mm,"))
         << outcome.out << outcome.err;
     EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 9) << outcome.out;
-    EXPECT_TRUE(holds(read("gamma.svg"), ">0030, 15 %, 3 mm<"));
+    EXPECT_TRUE(has(read("gamma.svg"), ">0030, 15 %, 3 mm<"));
 }
 
 TEST_F(Isolation, WhatIsMissingOfAStudyIsTold) {
@@ -273,10 +273,10 @@ TEST_F(CouplingCommand, TheDriveIsAtMostThreeDecibelsStrongerEvenWhereThatIsNotE
 
 TEST_F(CouplingCommand, TellsWhatIsLeftAndWhereTheDriveCameFrom) {
     const auto outcome = runs(render + "--coupling c.json --events b.csv");
-    EXPECT_TRUE(holds(outcome.err, "coupling: what is felt differs from what is wanted by 0.0 %, without "
+    EXPECT_TRUE(has(outcome.err, "coupling: what is felt differs from what is wanted by 0.0 %, without "
                                    "compensation by 30.0 %; by 2"));
-    EXPECT_TRUE(holds(outcome.err, " where it is off by up to 2 dB and 20 degrees; strongest drive "));
-    EXPECT_TRUE(holds(read("b.csv"), "coupling=c.json"));
+    EXPECT_TRUE(has(outcome.err, " where it is off by up to 2 dB and 20 degrees; strongest drive "));
+    EXPECT_TRUE(has(read("b.csv"), "coupling=c.json"));
     const std::string once = read("a.wav");
     runs(render + "--coupling c.json --events b.csv --block 17");
     EXPECT_EQ(read("a.wav"), once);

@@ -116,8 +116,8 @@ TEST_F(LiveLines, AnswersThatNobodyReadsHoldUpNothing) {
     EXPECT_TRUE(comes([this] { return read("s.json").find("0.2718") != std::string::npos; }))
         << "the line after them acts";
     EXPECT_EQ(end(), 1) << "words were lost";
-    EXPECT_TRUE(holds(heard(err), "physvib: standard output: cannot be written: "));
-    EXPECT_TRUE(holds(read("s.json"), "0.2718")) << "saved";
+    EXPECT_TRUE(has(heard(err), "physvib: standard output: cannot be written: "));
+    EXPECT_TRUE(has(read("s.json"), "0.2718")) << "saved";
 }
 
 TEST_F(LiveLines, AFullStandardErrorHoldsUpNothing) {
@@ -177,7 +177,7 @@ TEST_F(LiveLines, ALineWithANumberIsAnsweredWithIt) {
     ASSERT_TRUE(say("{\"message\": \"strike\", \"id\": 1.5}\n{\"message\": \"stop\", \"id\": "
                     "\"a\"}\n{\"message\": \"stop\", \"id\": 12}\n"));
     ASSERT_TRUE(comes([this] { return heard(out).find("\"id\": 12") != std::string::npos; }));
-    EXPECT_TRUE(holds(heard(err), "id: expected a whole number"));
+    EXPECT_TRUE(has(heard(err), "id: expected a whole number"));
     EXPECT_EQ(heard(out).substr(at), "{ \"answer\": \"done\", \"id\": 12 }\n")
         << "what is no number cannot be given back";
     EXPECT_EQ(end(), 0);

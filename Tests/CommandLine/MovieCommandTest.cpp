@@ -76,7 +76,7 @@ TEST(RenderMovie, EachActuatorShinesByWhatItPlays) {
 
 TEST_F(MovieCommand, LastsAsLongAsTheRenderAndMoves) {
     const auto made = runs("render drop --seconds 1.5 --movie drop.webp --events drop.csv");
-    EXPECT_TRUE(holds(made.out,
+    EXPECT_TRUE(has(made.out,
                       "drop.webp  the world, its impacts and every channel in time, 20 pictures per second"));
     const auto movie = animationOf(read("drop.webp"));
     EXPECT_EQ(movie.width, 960u);
@@ -102,7 +102,7 @@ TEST_F(MovieCommand, WithoutFfmpegItSaysWhatIsMissing) {
     const auto alone = call("render drop --seconds 0.2 --movie drop.mp4 --out drop.wav",
                             "env() { PATH= /usr/bin/env \"$@\"; }; ");
     EXPECT_EQ(alone.exitCode, 1);
-    EXPECT_TRUE(holds(alone.err, "drop.mp4: .gif and .mp4 need the program ffmpeg"));
+    EXPECT_TRUE(has(alone.err, "drop.mp4: .gif and .mp4 need the program ffmpeg"));
     EXPECT_EQ(files().size(), 0u);
 }
 
@@ -114,9 +114,9 @@ TEST_F(MovieCommand, HandsPicturesAndWhatIsHeardToFfmpeg) {
     runs("render drop --seconds 0.5 --movie drop.mp4",
          "PATH=\"" + (folder_ / "tools").string() + ":$PATH\"; export PATH; ");
     EXPECT_EQ(read("drop.mp4"), "movie");
-    EXPECT_TRUE(holds(read("told"), "-c:v png -framerate 20"));
-    EXPECT_TRUE(holds(read("told"), "-f f32le -ac 1 -ar 48000"));
-    EXPECT_TRUE(holds(read("sizes"), "\n96000\n")); // 24,000 samples
+    EXPECT_TRUE(has(read("told"), "-c:v png -framerate 20"));
+    EXPECT_TRUE(has(read("told"), "-f f32le -ac 1 -ar 48000"));
+    EXPECT_TRUE(has(read("sizes"), "\n96000\n")); // 24,000 samples
     EXPECT_EQ(files().size(), 4u); // nothing of what ffmpeg read is left: tools, told, sizes, drop.mp4
 }
 

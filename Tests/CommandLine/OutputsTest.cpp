@@ -104,9 +104,9 @@ TEST_F(Outputs, WordsThatDoNotArriveAreAFailure) {
           "analyse confusion trials.csv", "stimulus list", "--help", "--version", "render --help",
           "render drop --seconds 0.1 --out new.wav", "play drop --device 'None:no device' --seconds 0.1"}) {
         EXPECT_EQ(shell(program_ + words + " >/dev/full"), 1) << words;
-        EXPECT_TRUE(holds(read(".err"), "physvib: standard output: cannot be written")) << words;
+        EXPECT_TRUE(has(read(".err"), "physvib: standard output: cannot be written")) << words;
         EXPECT_EQ(shell(program_ + words + " >&-"), 1) << words;
-        EXPECT_TRUE(holds(read(".err"), "physvib: standard output: cannot be written")) << words;
+        EXPECT_TRUE(has(read(".err"), "physvib: standard output: cannot be written")) << words;
     }
     shell(program_ + "study show patterns >/dev/full");
     EXPECT_EQ(read(".err"), "physvib: standard output: cannot be written: No space left on device\n");
@@ -148,7 +148,7 @@ TEST_F(Outputs, TwoStudiesOfOneParticipantAtOnceAreToldApart) {
     kill(first, SIGTERM);
     waitFor(first);
     EXPECT_EQ(second.exitCode, 1);
-    EXPECT_TRUE(holds(second.err, "magnitudes-P01.csv: another program is writing it"));
+    EXPECT_TRUE(has(second.err, "magnitudes-P01.csv: another program is writing it"));
     runs("study run magnitudes --observer simulated"); // what was cut off goes on
     EXPECT_EQ(read("magnitudes-P01.csv"), read("sub/magnitudes-P01.csv"));
 }
@@ -161,7 +161,7 @@ TEST_F(Outputs, TwoRendersToOneFileAtOnceAreToldApart) {
     kill(first, SIGKILL);
     waitFor(first);
     EXPECT_EQ(second.exitCode, 1);
-    EXPECT_TRUE(holds(second.err, "long.wav: cannot be written: it is being written already"));
+    EXPECT_TRUE(has(second.err, "long.wav: cannot be written: it is being written already"));
     runs("render scene.json --seconds 0.1 --out long.wav"); // what was killed left nothing in the way
     for (const auto& name : files()) EXPECT_FALSE(name.ends_with(".part")) << name;
 }

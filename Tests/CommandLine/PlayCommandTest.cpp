@@ -103,7 +103,7 @@ TEST_F(SoundPlay, WhatLeavesIsTheFileToTheBit) {
     const auto file = felt("box.wav", 4), own = felt("own.wav", 4);
     ASSERT_GT(file.size(), 40'000u);
     EXPECT_TRUE(own == file) << own.size() << " samples of " << file.size();
-    EXPECT_TRUE(holds(played.out, "; 4 events left, 0 late, 0 dropped"));
+    EXPECT_TRUE(has(played.out, "; 4 events left, 0 late, 0 dropped"));
     std::istringstream told{played.out.substr(played.out.find("peaks ") + 6)};
     for (std::size_t j = 0; j < 4; ++j) {
         double peak = 0.0, most = 0.0;
@@ -151,9 +151,9 @@ TEST_F(SoundPlay, WhatExceedsFullScaleOrIsNoNumberIsTold) {
     };
     write("loud.wav", sound(327.0f));
     const auto loud = runs("play loud.wav" + std::string{nobody});
-    EXPECT_TRUE(holds(loud.err, "loud.wav: exceeds full scale by 50.3 dB"));
+    EXPECT_TRUE(has(loud.err, "loud.wav: exceeds full scale by 50.3 dB"));
     write("full.wav", sound(1.0f));
-    EXPECT_FALSE(holds(call("play full.wav" + std::string{nobody}).err, "exceeds"));
+    EXPECT_FALSE(has(call("play full.wav" + std::string{nobody}).err, "exceeds"));
     write("nan.wav", sound(std::numeric_limits<float>::quiet_NaN()));
     for (const std::string& words :
          {"play nan.wav" + std::string{nobody}, std::string{"beats nan.wav --out b.csv"},
@@ -173,11 +173,11 @@ protected:
 
 TEST_F(PadsCommand, RenderWritesWhatMotorsWouldGetInsteadOfSamples) {
     const auto outcome = runs("render --from-events hits.csv --seconds 1 --pad pad-xbox --out motors.csv");
-    EXPECT_TRUE(holds(outcome.out, "motors.csv  what two motors of pad-xbox would get: "));
+    EXPECT_TRUE(has(outcome.out, "motors.csv  what two motors of pad-xbox would get: "));
     std::istringstream file{read("motors.csv")};
     std::string line;
     std::getline(file, line);
-    EXPECT_TRUE(holds(line, "pad=pad-xbox"));
+    EXPECT_TRUE(has(line, "pad=pad-xbox"));
     std::getline(file, line);
     EXPECT_EQ(line, "time_s,low,high");
     double before = -1.0, lowMost = 0.0, highMost = 0.0;
@@ -195,7 +195,7 @@ TEST_F(PadsCommand, RenderWritesWhatMotorsWouldGetInsteadOfSamples) {
     }
     EXPECT_GE(lowMost, 0.3) << "a hit of 60 Hz";
     EXPECT_GE(highMost, 0.3) << "a hit of 349 Hz";
-    EXPECT_TRUE(holds(last, ",0.00,0.00"));
+    EXPECT_TRUE(has(last, ",0.00,0.00"));
     const auto all = read("motors.csv");
     runs("render --from-events hits.csv --seconds 1 --pad pad-xbox --out motors.csv --block 17");
     EXPECT_EQ(read("motors.csv"), all);
@@ -222,7 +222,7 @@ TEST_F(PadsCommand, AWrongPadIsOneLineAndLeavesNothing) {
 
 TEST_F(PadsCommand, TheCoilsOfADualSenseAreALayoutOfTwoGrips) {
     const auto outcome = runs("render --from-events hits.csv --seconds 1 --layout dualsense --out coils.wav");
-    EXPECT_TRUE(holds(outcome.out, "2 channels"));
+    EXPECT_TRUE(has(outcome.out, "2 channels"));
 }
 
 } // namespace

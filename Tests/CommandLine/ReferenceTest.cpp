@@ -43,9 +43,9 @@ protected:
         const auto options = wordsIn(help, "\n +(?:-[a-z], *)?(--[a-z][a-z-]*)");
         EXPECT_TRUE(options.contains("--help")) << command;
         for (const std::string& option : options) {
-            EXPECT_TRUE(holds(manual, option)) << command;
-            EXPECT_TRUE(holds(zsh_, "'" + option + "[")) << command << ' ' << option;
-            EXPECT_TRUE(holds(fish_, " -l " + option.substr(2) + " ")) << command << ' ' << option;
+            EXPECT_TRUE(has(manual, option)) << command;
+            EXPECT_TRUE(has(zsh_, "'" + option + "[")) << command << ' ' << option;
+            EXPECT_TRUE(has(fish_, " -l " + option.substr(2) + " ")) << command << ' ' << option;
         }
         std::istringstream proposed{proposals("physvib " + command + " -")};
         const std::set<std::string> words{std::istream_iterator<std::string>{proposed}, {}};
@@ -61,7 +61,7 @@ TEST_F(Reference, HoldsAllThatHelpHolds) {
     holdsAllOf("", "physvib");
     for (const std::string& command : commands) {
         holdsAllOf(command, "physvib-" + command);
-        EXPECT_TRUE(holds(page("physvib"), "physvib-" + command));
+        EXPECT_TRUE(has(page("physvib"), "physvib-" + command));
         for (const std::string& inner : commandsOf(call(command + " --help").out))
             holdsAllOf(command + ' ' + inner, "physvib-" + command);
     }
@@ -70,7 +70,7 @@ TEST_F(Reference, HoldsAllThatHelpHolds) {
 TEST_F(Reference, ProgramsAreDescribed) {
     for (const char* name :
          {"physvib", "physvib-render", "physvib-play", "physvib-study", "physvib-analyse", "physvib-board"})
-        EXPECT_TRUE(holds(page(name), "\n.SH DESCRIPTION\n")) << name;
+        EXPECT_TRUE(has(page(name), "\n.SH DESCRIPTION\n")) << name;
 }
 
 TEST_F(Reference, ProposesWhatMayFollow) {

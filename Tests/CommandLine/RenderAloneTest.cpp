@@ -45,7 +45,7 @@ TEST_F(RenderAlone, AListRendersAsItsSceneDidBecauseItSaysItsField) {
     EXPECT_TRUE(samplesOf("list.wav") == samplesOf("scene.wav"));
     runs("render --from-events box.csv --seconds 3 --out whole.wav --events whole.csv");
     EXPECT_TRUE(samplesOf("whole.wav") == samplesOf("scene.wav"));
-    EXPECT_TRUE(holds(read("whole.csv"), " field_m=6.4,3.6\n")) << "handed on";
+    EXPECT_TRUE(has(read("whole.csv"), " field_m=6.4,3.6\n")) << "handed on";
 
     std::string old = read("box.csv"); // as lists were before
     const std::string said = " field_m=6.4,3.6";
@@ -59,7 +59,7 @@ TEST_F(RenderAlone, AListRendersAsItsSceneDidBecauseItSaysItsField) {
         " hits lie outside the field of 0.12 x 0.06 m, the layout's, as the list says none (see --field)\n";
     EXPECT_TRUE(read(".err").starts_with("physvib-render: warning: ") && read(".err").ends_with(warning))
         << read(".err");
-    EXPECT_FALSE(holds(read("guessed.csv"), "field_m")) << "a guess is not handed on";
+    EXPECT_FALSE(has(read("guessed.csv"), "field_m")) << "a guess is not handed on";
     const auto whole = call("render --from-events old.csv --seconds 3 --out again.wav");
     EXPECT_TRUE(whole.err.starts_with("physvib: warning: ") && whole.err.ends_with(warning)) << whole.err;
     EXPECT_TRUE(samplesOf("again.wav") == samplesOf("guessed.wav"));
@@ -77,7 +77,7 @@ TEST_F(RenderAlone, SilenceSaysWhy) {
         ASSERT_EQ(alone("hits.csv --seconds 1 --out a.wav" + options), 0) << read(".err");
         EXPECT_EQ(read(".err"), "physvib-render: warning: silent: " + why + "\n");
         const auto whole = call("render --from-events hits.csv --seconds 1 --out b.wav" + options);
-        EXPECT_TRUE(holds(whole.out, "48000 Hz, silent: " + why + "\n"));
+        EXPECT_TRUE(has(whole.out, "48000 Hz, silent: " + why + "\n"));
     }
 }
 
@@ -124,8 +124,8 @@ TEST_F(SceneFiles, AnybodysWorldIsRendered) {
     const auto outcome = runs("render drop.json --seconds 2 --out a.wav --events a.csv --picture a.png");
     EXPECT_EQ(outcome.err, "");
     EXPECT_EQ(files().size(), 4u);
-    EXPECT_TRUE(holds(read("a.csv"), "scene=my drop seed=1 steps_per_second=100 height=low size=big"));
-    EXPECT_TRUE(holds(read("a.csv"), ",80,34.13,"));
+    EXPECT_TRUE(has(read("a.csv"), "scene=my drop seed=1 steps_per_second=100 height=low size=big"));
+    EXPECT_TRUE(has(read("a.csv"), ",80,34.13,"));
 }
 
 TEST_F(SceneFiles, SetChangesTheScene) {
@@ -135,7 +135,7 @@ TEST_F(SceneFiles, SetChangesTheScene) {
     runs("render drop.json --seconds 2 --events high.csv --set height=high");
     EXPECT_EQ(read("low.csv"), read("again.csv"));
     EXPECT_NE(read("low.csv"), read("high.csv"));
-    EXPECT_TRUE(holds(read("high.csv"), "height=high"));
+    EXPECT_TRUE(has(read("high.csv"), "height=high"));
 }
 
 TEST_F(SceneFiles, SmallBodiesAreWarnedOf) {

@@ -114,7 +114,7 @@ TEST_F(Render, ReleaseTimingFeelsTheSameFallLaterAndPrintsSo) {
     EXPECT_LE(release.value.events[0].timeNs, onset.value.events[0].timeNs + 50'000'000);
     EXPECT_NEAR(release.value.events[0].amplitude, onset.value.events[0].amplitude,
                 0.05 * onset.value.events[0].amplitude);
-    EXPECT_TRUE(holds(read("release.csv"), "timing=release"));
+    EXPECT_TRUE(has(read("release.csv"), "timing=release"));
 }
 
 TEST_F(Render, FixtureLocationPutsEveryHitAtTheCentreOfItsFixture) {
@@ -131,7 +131,7 @@ TEST_F(Render, FixtureLocationPutsEveryHitAtTheCentreOfItsFixture) {
         EXPECT_EQ(fixture.value.events[i].amplitude, contact.value.events[i].amplitude);
         EXPECT_EQ(fixture.value.events[i].timeNs, contact.value.events[i].timeNs);
     }
-    EXPECT_TRUE(holds(read("fixture.csv"), "location=fixture"));
+    EXPECT_TRUE(has(read("fixture.csv"), "location=fixture"));
 }
 
 TEST_F(Render, LayoutDecidesTheNumberOfChannels) {
@@ -210,7 +210,7 @@ TEST_F(Render, MethodsFixWhatTheirNamesSay) {
     EXPECT_EQ(read("b.csv"), read("a.csv"));
     const auto outcome = runs("render drop --seconds 3 --method AF-FF-DRF --out c.wav --events c.csv");
     EXPECT_TRUE(
-        holds(outcome.err,
+        has(outcome.err,
               "fixed level of 1.5 g is above the actuators' full scale of 1 g; the limiter lowers it"));
     const auto varied = readEventsCsv(read("a.csv"), "a.csv"), fixed = readEventsCsv(read("c.csv"), "c.csv");
     ASSERT_EQ(fixed.value.events.size(), varied.value.events.size());
@@ -223,7 +223,7 @@ TEST_F(Render, MethodsFixWhatTheirNamesSay) {
                   std::tuple(varied.value.events[i].timeNs, varied.value.events[i].x,
                              varied.value.events[i].y, varied.value.events[i].source));
     }
-    EXPECT_TRUE(holds(read("c.csv").substr(0, 200), "method=AF-FF-DRF"));
+    EXPECT_TRUE(has(read("c.csv").substr(0, 200), "method=AF-FF-DRF"));
     runs("render --from-events a.csv --seconds 3 --field 9,5 --method AF-FF-DRF --out d.wav");
     runs("render --from-events c.csv --seconds 3 --field 9,5 --out e.wav");
     EXPECT_EQ(Wav{read("d.wav")}.samples, Wav{read("e.wav")}.samples)
@@ -268,12 +268,12 @@ TEST_F(Render, TwoOutputsInOneFileAreRefused) {
 TEST_F(Render, EventsAfterTheEndAreTold) {
     writeHits("hits.csv", oneHit + "5,205,30,0.5,0.06,0.03\n");
     const auto outcome = runs("render --from-events hits.csv --seconds 1 --out a.wav");
-    EXPECT_TRUE(holds(outcome.err, "after the end"));
+    EXPECT_TRUE(has(outcome.err, "after the end"));
 }
 
 TEST_F(Render, HelpAndVersionAreNoErrors) {
     runs("--help");
-    EXPECT_TRUE(holds(call("render --help").out, "--from-events"));
+    EXPECT_TRUE(has(call("render --help").out, "--from-events"));
     EXPECT_EQ(call("--version").out.rfind("physvib ", 0), 0u);
 }
 

@@ -59,9 +59,9 @@ TEST_F(SoundMethod, MaterialsOfOneFrequencyHaveRecordingsOfTheirOwn) {
         return most;
     };
     EXPECT_GT(differ(0.1, 0.5), 0.1f);
-    EXPECT_TRUE(holds(read("a.wav"), "sound=oak=knock.wav"));
-    EXPECT_TRUE(holds(read("again.csv"), ",oak\n"));
-    EXPECT_TRUE(holds(read("again.csv"), ",pine\n"));
+    EXPECT_TRUE(has(read("a.wav"), "sound=oak=knock.wav"));
+    EXPECT_TRUE(has(read("again.csv"), ",oak\n"));
+    EXPECT_TRUE(has(read("again.csv"), ",pine\n"));
 }
 
 TEST_F(SoundMethod, MarksAreAFileOfTheirOwnInSyncWithWhatIsFelt) {
@@ -69,7 +69,7 @@ TEST_F(SoundMethod, MarksAreAFileOfTheirOwnInSyncWithWhatIsFelt) {
     const std::string render =
         "render --from-events close.csv --layout phone1 --seconds 1 --out a.wav --marker m.wav";
     const auto outcome = runs(render);
-    EXPECT_TRUE(holds(outcome.out, "m.wav  a pulse at each onset: 1 channel, 2 pulses for 3 onsets: 1 came "
+    EXPECT_TRUE(has(outcome.out, "m.wav  a pulse at each onset: 1 channel, 2 pulses for 3 onsets: 1 came "
                                    "within 0.5 ms of another"));
     const auto felt = samplesOf("a.wav"), marks = samplesOf("m.wav");
     ASSERT_EQ(felt.size(), marks.size());
@@ -90,7 +90,7 @@ TEST_F(SoundMethod, TheContactSoundIsAFileOfItsOwnInSyncWithWhatIsFelt) {
         "render --from-events hits.csv --layout phone1 --seconds 1 --out a.wav --contact-sound b.wav ";
     auto outcome = call(render);
     ASSERT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_TRUE(holds(outcome.out, "b.wav  what is heard of each hit: 1 channel, at full scale -20 dBFS"));
+    EXPECT_TRUE(has(outcome.out, "b.wav  what is heard of each hit: 1 channel, at full scale -20 dBFS"));
     const auto felt = samplesOf("a.wav"), heard = samplesOf("b.wav");
     ASSERT_EQ(felt.size(), heard.size());
     for (std::size_t n = 0; n < felt.size(); ++n) ASSERT_NEAR(heard[n], 0.1f * felt[n], 1e-6f) << n;
@@ -120,7 +120,7 @@ TEST_F(SoundMethod, LevelsMoveAllHitsAndRecordingsCanBeAsStrongAsTheMode) {
     for (std::size_t n = 0; n < plain.size(); ++n) ASSERT_NEAR(half[n], 0.5f * plain[n], 1e-6f) << n;
     runs(render + "--method SV --sound 349=synthetic-7 --level-db -6.0206");
     EXPECT_NEAR(peakOf(samplesOf("a.wav"), 0.2, 0.55, 48000), 0.2f, 1e-4f);
-    EXPECT_TRUE(holds(read("a.wav"), "sound=349=synthetic-7")) << "what is synthetic says so";
+    EXPECT_TRUE(has(read("a.wav"), "sound=349=synthetic-7")) << "what is synthetic says so";
     runs(render + "--method SV --sound 349=synthetic-7 --sound-match rms");
     const auto energy = [&](const std::vector<float>& x) {
         double sum = 0.0;
@@ -180,11 +180,11 @@ TEST_F(PerceivedLevelCommand, WeighsTheEventsThatAreListedAndPlayed) {
     EXPECT_EQ(read("a.wav"), plain);
     runs(std::string{render} + "--perceived-level on --events b.csv");
     EXPECT_NE(read("a.wav"), plain);
-    EXPECT_TRUE(holds(read("a.wav"), "perceived_level=on"));
+    EXPECT_TRUE(has(read("a.wav"), "perceived_level=on"));
     const std::string listed = read("b.csv");
     for (const char* row : {"\n0.100000000,20,10,0.125,", "\n0.200000000,80,34.13,0.25,",
                             "\n0.500000000,500,50,0.5,", "\n0.700000000,500,50,1,"})
-        EXPECT_TRUE(holds(listed, row));
+        EXPECT_TRUE(has(listed, row));
     runs("render --from-events b.csv --layout phone1 --seconds 1 --out b.wav");
     // without the line on its origin
     const auto tail = [](const std::string& wav) { return wav.substr(wav.size() - 100'000); };
@@ -200,7 +200,7 @@ TEST_F(PerceivedLevelCommand, ASavedSessionKeepsItUnlessTheCallSaysOtherwise) {
     write("plain.json", session(""));
     write("weighted.json", session(R"("shaping": {"perceived_level": true}, )"));
     const auto plain = events("plain.json", ""), weighted = events("plain.json", "--perceived-level on");
-    EXPECT_TRUE(holds(plain, ",430,")) << "the ball hits the plate: ";
+    EXPECT_TRUE(has(plain, ",430,")) << "the ball hits the plate: ";
     EXPECT_NE(weighted, plain);
     EXPECT_EQ(events("weighted.json", ""), weighted);
     EXPECT_EQ(events("weighted.json", "--perceived-level off"), plain);

@@ -25,12 +25,12 @@ TEST_F(StimulusCommand, PatternsAndPhantomsBecomeFilesAndTheSameOnesAgain) {
                                    "phantom --at 0.25,0.5 --layout ring4 --seconds 0.3"}) {
         const auto outcome = runs("stimulus " + what + " --out a.wav --picture a.png");
         EXPECT_EQ(outcome.err, "");
-        EXPECT_TRUE(holds(outcome.out, "4 channels"));
+        EXPECT_TRUE(has(outcome.out, "4 channels"));
         const std::string first = read("a.wav");
         runs("stimulus " + what + " --out b.wav");
         EXPECT_EQ(read("b.wav"), first);
     }
-    EXPECT_TRUE(holds(call("stimulus pattern ABA-250 --out a.wav").out, "0.950 s"));
+    EXPECT_TRUE(has(call("stimulus pattern ABA-250 --out a.wav").out, "0.950 s"));
 }
 
 TEST_F(StimulusCommand, TheResonanceIsThatOfTheLayoutsActuators) {
@@ -86,7 +86,7 @@ TEST_F(StimulusCommand, WhatLiesBelow5HzInARecordingIsTakenAwayAndTold) {
         samples[n] += 0.02f * std::sin(0.16f * static_cast<float>(n));
     writeWav("offset.wav");
     const auto outcome = runs("stimulus wav offset.wav --at 0,0 --layout phone1 --out a.wav");
-    EXPECT_TRUE(holds(outcome.err,
+    EXPECT_TRUE(has(outcome.err,
                       "offset.wav: what lies below 5 Hz is not played: a mean of 0.50, of full scale\n"));
     const auto placed = samplesOf(read("a.wav"));
     EXPECT_NEAR(*std::ranges::min_element(placed), -1.0f, 0.01f);

@@ -53,15 +53,20 @@ class RecoveryCopiesTest : public FolderTest {
 protected:
     fs::path copy(const std::string& name) const { return folder / ("recovery-" + name + ".json"); }
     std::size_t copies() const { return RecoveryCopies(folder).leftBehind().size(); }
+    /// A run that keeps a copy, or forgets it again, and goes on.
+    auto keeping(bool forgets) const {
+        return [this, forgets](auto ready) {
+            RecoveryCopies mine(folder);
+            EXPECT_EQ(mine.keep("{}"), "");
+            if (forgets) mine.forget(); // its lock stays
+            ready();
+            pause();
+        };
+    }
 };
 
 TEST_F(RecoveryCopiesTest, ACopyIsOfferedOnceItsRunHasEndedHoweverItDid) {
-    OtherRun run([this](auto ready) {
-        RecoveryCopies mine(folder);
-        EXPECT_EQ(mine.keep("{}"), "");
-        ready();
-        pause();
-    });
+    OtherRun run(keeping(false));
     run.wait();
     EXPECT_EQ(copies(), 0u) << "its run goes on";
     fs::path kept;
@@ -126,13 +131,7 @@ TEST_F(RecoveryCopiesTest, WhatIsNoWholeCopyIsToldAndStays) {
 TEST_F(RecoveryCopiesTest, WhatARunLeavesBeforeItsFirstCopyGoesWithTheNext) {
     put(folder / "recovery-a.lock", "");
     put(folder / "recovery-a.json.physvib.part", "{");
-    OtherRun run([this](auto ready) {
-        RecoveryCopies mine(folder);
-        EXPECT_EQ(mine.keep("{}"), "");
-        mine.forget(); // it goes on, with its lock
-        ready();
-        pause();
-    });
+    OtherRun run(keeping(true));
     run.wait();
     EXPECT_EQ(copies(), 0u);
     EXPECT_EQ(filesInFolder(), 1u) << "the lock of the run that goes on";

@@ -36,6 +36,14 @@ TEST(WaveformEnvelope, EveryFrameIsInOneColumn) {
     }
 }
 
+TEST(WaveformEnvelope, APeakMayBeBelowZero) {
+    WaveformEnvelope envelope(1, 0, 100);
+    const std::vector<float> samples{0.25f, -0.75f, 0.5f};
+    const float* channel = samples.data();
+    envelope.add(&channel, 3);
+    EXPECT_EQ(envelope.peak(), 0.75f);
+}
+
 TEST(WaveformEnvelope, DoesNotDependOnTheBlocks) {
     WaveformEnvelope one(1, 50, 20000), other(1, 50, 20000);
     addCount(one, 30000, 1);

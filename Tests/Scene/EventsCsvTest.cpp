@@ -3,7 +3,7 @@
 #include "Scene/EventsCsv.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Support/FileTesting.h"
-#include "Support/Holds.h"
+#include "Support/Has.h"
 #include <algorithm>
 #include <limits>
 
@@ -78,11 +78,11 @@ TEST(EventsCsv, WriteThenReadGivesTheSameBits) {
 
 TEST(EventsCsv, KindsAreWrittenWhereThereAreAny) {
     Events events = randomEvents(5, 100);
-    EXPECT_FALSE(holds(eventsCsv(events, field, provenance), "kind"));
+    EXPECT_FALSE(has(eventsCsv(events, field, provenance), "kind"));
     events[7].source.kind = ContactKind::roll;
     events[50].source.kind = ContactKind::slide;
     const std::string text = eventsCsv(events, field, provenance);
-    EXPECT_TRUE(holds(text, "mass_kg,kind\n"));
+    EXPECT_TRUE(has(text, "mass_kg,kind\n"));
     EXPECT_TRUE(readGood(text) == events);
     EXPECT_EQ(errorOf(allColumns.substr(0, allColumns.size() - 1) + ",kind\n1,200,10,1,0,0,0,1,2,0,1,fall\n"),
               "hits.csv:2: column kind: expected hit, roll or slide, found \"fall\"");
@@ -97,8 +97,8 @@ TEST(EventsCsv, MaterialsAreNamedWhereTheyAreKnown) {
     SoundNames names;
     for (const char* name : {"wood", "a, b", "clip-1", " c", "never struck"}) names.add(name);
     const std::string text = eventsCsv(events, field, provenance, names);
-    EXPECT_TRUE(holds(text, "mass_kg,material\n"));
-    EXPECT_TRUE(holds(text, ",wood\n"));
+    EXPECT_TRUE(has(text, "mass_kg,material\n"));
+    EXPECT_TRUE(has(text, ",wood\n"));
     const auto read = readEventsCsv(text, "hits.csv");
     ASSERT_EQ(read.error, "");
     EXPECT_TRUE(read.value.events == events);
@@ -106,33 +106,33 @@ TEST(EventsCsv, MaterialsAreNamedWhereTheyAreKnown) {
     EXPECT_EQ(read.value.names.of(soundOfClip(6)), "clip-7");
     EXPECT_EQ(eventsCsv(read.value.events, field, provenance, read.value.names).size(), text.size());
     events.resize(1);
-    EXPECT_TRUE(holds(eventsCsv(events, field, provenance), ",sound-923368111\n"))
+    EXPECT_TRUE(has(eventsCsv(events, field, provenance), ",sound-923368111\n"))
         << "whose name is not known here";
     EXPECT_EQ(readGood(eventsCsv(events, field, provenance)).front().sound, events[0].sound);
     events[0].sound = 0;
-    EXPECT_FALSE(holds(eventsCsv(events, field, provenance, names), "material"));
+    EXPECT_FALSE(has(eventsCsv(events, field, provenance, names), "material"));
 }
 
 TEST(EventsCsv, DepthsAndPartsAreWrittenWhereThereAreAny) {
     Events events = randomEvents(4, 3);
     const std::string flat = eventsCsv(events, {}, provenance);
-    EXPECT_TRUE(holds(flat, "\n" + allColumns)) << "a list in a plane is as it was";
+    EXPECT_TRUE(has(flat, "\n" + allColumns)) << "a list in a plane is as it was";
     events[1].z = -0.125;
-    EXPECT_TRUE(holds(eventsCsv(events, {}, provenance), "mass_kg,z_m\n"));
+    EXPECT_TRUE(has(eventsCsv(events, {}, provenance), "mass_kg,z_m\n"));
     events[2].source.part = partNamed("left elbow");
     events[0].source.part = partNamed("thumb");
     SoundNames names;
     names.parts.add("left elbow");
     const std::string text = eventsCsv(events, {}, provenance, names);
-    EXPECT_TRUE(holds(text, "mass_kg,z_m,part\n"));
-    EXPECT_TRUE(holds(text, ",0,thumb\n"));
-    EXPECT_TRUE(holds(text, ",-0.125,\n"));
-    EXPECT_TRUE(holds(text, ",0,left elbow\n"));
+    EXPECT_TRUE(has(text, "mass_kg,z_m,part\n"));
+    EXPECT_TRUE(has(text, ",0,thumb\n"));
+    EXPECT_TRUE(has(text, ",-0.125,\n"));
+    EXPECT_TRUE(has(text, ",0,left elbow\n"));
     EXPECT_EQ(readGood(text), events);
     const auto again = readEventsCsv(text, "again");
     EXPECT_EQ(eventsCsv(again.value.events, {}, provenance, again.value.names), text) << "names are kept";
     const std::string unnamed = eventsCsv(events, {}, provenance);
-    EXPECT_TRUE(holds(unnamed, ",part-" + std::to_string(partNamed("left elbow")) + "\n"));
+    EXPECT_TRUE(has(unnamed, ",part-" + std::to_string(partNamed("left elbow")) + "\n"));
     EXPECT_EQ(readGood(unnamed), events);
     EXPECT_EQ(errorOf("time_s,frequency_hz,decay_per_s,amplitude,x_m,y_m,z_m\n0,100,1,1,0,0,up\n"),
               "hits.csv:2: column z_m: expected a number, found \"up\"");
@@ -176,7 +176,7 @@ TEST(EventsCsv, AListSaysTheFieldItSpans) {
     EXPECT_EQ(
         readEventsCsv(eventsCsv(randomEvents(5, 3), {odd, 1.0 / 3.0}, provenance), "hits.csv").value.field,
         (FieldSize{odd, 1.0 / 3.0}));
-    EXPECT_FALSE(holds(eventsCsv(randomEvents(5, 3), {}, provenance), "field_m")) << "one that nobody knows";
+    EXPECT_FALSE(has(eventsCsv(randomEvents(5, 3), {}, provenance), "field_m")) << "one that nobody knows";
 }
 
 TEST(EventsCsv, NegativeZeroKeepsItsSign) {
@@ -361,7 +361,7 @@ TEST(EventsCsv, ACommaLocaleChangesNothing) {
     const CommaLocale comma;
     EXPECT_TRUE(eventsCsv(events, field, provenance) == text);
     EXPECT_TRUE(readGood(text) == events);
-    EXPECT_TRUE(holds(errorOf(shortHeader + "1,20000.5,3,4,5,6\n"), "<= 20000, found \"20000.5\""));
+    EXPECT_TRUE(has(errorOf(shortHeader + "1,20000.5,3,4,5,6\n"), "<= 20000, found \"20000.5\""));
     if (!comma.hasCLocale)
         GTEST_SKIP() << "no C locale with a decimal comma here; tried with C++ streams only";
 }

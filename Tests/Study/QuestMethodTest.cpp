@@ -128,6 +128,21 @@ TEST(QuestMethod, ThresholdsAreUnbiasedAndIntervalsHold) {
     }
 }
 
+TEST(QuestMethod, GoesOnAfterEveryCutWithTheLevelsThatWouldHaveBeen) {
+    const Protocol p = questProtocol(method);
+    const SimulatedObserver observer{{}, p, {}};
+    const auto records = answered(p);
+    ASSERT_EQ(records.size(), 40u);
+    for (std::size_t cut = 0; cut < records.size(); cut += 13) {
+        Experiment experiment{p, {}};
+        for (std::size_t i = 0; i < cut; ++i) ASSERT_EQ(experiment.redo(records[i]), "");
+        for (std::size_t i = cut; i < records.size(); ++i) {
+            EXPECT_EQ(experiment.trial().partLevelsDb, records[i].trial.partLevelsDb);
+            EXPECT_EQ(experiment.take(observer.answer(experiment)).answer, records[i].answer);
+        }
+    }
+}
+
 TEST(QuestMethod, ARowOfAnotherLevelIsAnotherAnswer) {
     const Protocol p = questProtocol(method);
     EXPECT_EQ(Experiment(p, {}).sessionTrials(), 40);

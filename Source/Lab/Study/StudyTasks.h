@@ -35,6 +35,7 @@ struct TaskText {
 
 /// An entry of the table.
 struct StudyTaskDescription {
+    StudyTask task;        ///< its number is its index in the table
     std::string_view name; ///< in protocols and trial files; never changes
     AnswerKind answer;
     std::string_view analysis; ///< name for `physvib analyse` and the report; empty: none
@@ -42,41 +43,55 @@ struct StudyTaskDescription {
     TaskText instruction; ///< course of a session, after the line on how often a stimulus may be played
 };
 
-/// The table of all tasks, in the order of StudyTask.
+/// The table of all tasks.
 inline constexpr std::array studyTasks{
-    StudyTaskDescription{"explore",
+    StudyTaskDescription{StudyTask::explore,
+                         "explore",
                          AnswerKind::wish,
                          "",
                          {"What do you want to feel?", "Where do you want to feel it?"},
                          {"Choose what you want to feel, as often as you like.\nWhen everything was felt "
                           "once, Next ends the training."}},
-    StudyTaskDescription{"identify",
+    StudyTaskDescription{StudyTask::identify,
+                         "identify",
                          AnswerKind::label,
                          "confusion",
                          {"What did you feel?", "Where did you feel it?"},
                          {"Then say which one it was.", "Then choose the point where you felt it.",
                           "Then choose the place of its first pulse, and the whole pattern."}},
-    StudyTaskDescription{"locate",
+    StudyTaskDescription{StudyTask::locate,
+                         "locate",
                          AnswerKind::place,
                          "resolution",
                          {"Where did you feel it?"},
                          {"Then mark where you felt it, anywhere on the field."}},
-    StudyTaskDescription{"choose",
+    StudyTaskDescription{StudyTask::choose,
+                         "choose",
                          AnswerKind::choice,
                          "choices",
                          {"Which one do you choose?"},
                          {"Feel them alternately, as often as you like, then choose one."}},
-    StudyTaskDescription{
-        "rate", AnswerKind::scores, "ratings", {"Rate what you felt."}, {"Then set every scale, and go on."}},
-    StudyTaskDescription{"adjust",
+    StudyTaskDescription{StudyTask::rate,
+                         "rate",
+                         AnswerKind::scores,
+                         "ratings",
+                         {"Rate what you felt."},
+                         {"Then set every scale, and go on."}},
+    StudyTaskDescription{StudyTask::adjust,
+                         "adjust",
                          AnswerKind::level,
                          "levels",
                          {"Make both equal."},
                          {"Feel both alternately, as often as you like.\nMake the marked one softer or "
                           "stronger until both are equal, and go on."}},
-    StudyTaskDescription{
-        "estimate", AnswerKind::number, "levels", {"How much is it?"}, {"Then type a number, and go on."}},
-    StudyTaskDescription{"describe",
+    StudyTaskDescription{StudyTask::estimate,
+                         "estimate",
+                         AnswerKind::number,
+                         "levels",
+                         {"How much is it?"},
+                         {"Then type a number, and go on."}},
+    StudyTaskDescription{StudyTask::describe,
+                         "describe",
                          AnswerKind::words,
                          "",
                          {"What did it feel like?"},
@@ -106,6 +121,14 @@ inline constexpr auto studyTaskNames = [] {
     for (std::size_t i = 0; i < names.size(); ++i) names[i] = studyTasks[i].name;
     return names;
 }();
+
+static_assert(
+    [] {
+        for (std::size_t i = 0; i < studyTasks.size(); ++i)
+            if (static_cast<std::size_t>(studyTasks[i].task) != i) return false;
+        return true;
+    }(),
+    "each task at the place of its number");
 
 /// "the task rate", "the tasks choose and adjust": those with answers of these kinds. Any thread (allocates).
 inline std::string tasksThatAnswer(std::initializer_list<AnswerKind> kinds) {

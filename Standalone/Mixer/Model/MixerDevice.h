@@ -97,18 +97,14 @@ public:
     static constexpr int columns = 800;
     static constexpr double seconds = 1.0;
 
-    ScopeTrace() { clear(); }
+    ScopeTrace() {
+        for (auto& lane : lanes_) lane.assign(columns, {});
+    }
 
     /// Restarts the current column.
     void setRate(int sampleRateHz) {
         framesPerColumn_ = std::max(1, static_cast<int>(seconds * sampleRateHz / columns));
         filled_ = 0;
-    }
-    void clear() {
-        for (auto& lane : lanes_) lane.assign(columns, {});
-        newest_ = 0;
-        filled_ = 0;
-        begun_ = 0;
     }
 
     /// Appends frames of the first `count` channels.

@@ -134,17 +134,13 @@ void MixerLanes::look() {
                          faders_.size() != strips_ + model_.mix().groups.size();
     if (!faders_.empty() && (!isWanted || isOther)) end();
     if (!isWanted) return;
-    if (faders_.empty())
-        begin();
-    else
+    if (faders_.empty()) {
+        strips_ = model_.mix().strips.size();
+        run_ = model_.session().world().take();
+        for (const double db : faders()) faders_.push_back({db, db});
+    } else
         follow();
     lookedAtSeconds_ = sceneSeconds();
-}
-
-void MixerLanes::begin() {
-    strips_ = model_.mix().strips.size();
-    run_ = model_.session().world().take();
-    for (const double db : faders()) faders_.push_back({db, db});
 }
 
 // Each move starts at the fader's value of the last look().

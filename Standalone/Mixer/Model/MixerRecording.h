@@ -82,7 +82,6 @@ private:
     };
     std::vector<double> faders() const; ///< values of all strips, then of all groups
     double sceneSeconds() const;
-    void begin();
     void follow();
     void end();
 
@@ -108,13 +107,26 @@ public:
     static constexpr std::int64_t pauseNs = 250'000'000; ///< a longer pause starts a new contact
 
     void add(const CollisionEvent& event) {
-        RecentContact* const known = find(event);
-        if (known == nullptr)
-            begin(event);
-        else
-            goOn(*known, event);
-        if (event.source.kind == ContactKind::hit) return;
-        grains_.push_back({known == nullptr ? contacts_.front().number : known->number, event});
+        const bool isHit = event.source.kind == ContactKind::hit;
+        auto known = std::ranges::find_if(contacts_, [&](const RecentContact& c) {
+            const CollisionSource &a = c.event.source, &b = event.source;
+            return !isHit && a.kind == b.kind && a.fixture == b.fixture && a.other == b.other &&
+                   event.timeNs - c.lastNs < pauseNs;
+        });
+        if (known == contacts_.end()) {
+            contacts_.push_front({event, 1, event.timeNs, ++begun_});
+            if (contacts_.size() > most) contacts_.pop_back();
+            known = contacts_.begin();
+        } else {
+            ++known->grains;
+            known->lastNs = event.timeNs;
+            known->event.x = event.x;
+            known->event.y = event.y;
+            if (std::abs(event.amplitude) > std::abs(known->event.amplitude))
+                known->event.amplitude = event.amplitude;
+        }
+        if (isHit) return;
+        grains_.push_back({known->number, event});
         if (grains_.size() > maxGrains) grains_.pop_front();
     }
     const std::deque<RecentContact>& newestFirst() const noexcept { return contacts_; }
@@ -131,28 +143,6 @@ private:
         std::uint64_t contact;
         CollisionEvent event;
     };
-    void begin(const CollisionEvent& event) {
-        contacts_.push_front({event, 1, event.timeNs, ++begun_});
-        if (contacts_.size() > most) contacts_.pop_back();
-    }
-    static void goOn(RecentContact& known, const CollisionEvent& event) {
-        ++known.grains;
-        known.lastNs = event.timeNs;
-        known.event.x = event.x;
-        known.event.y = event.y;
-        if (std::abs(event.amplitude) > std::abs(known.event.amplitude))
-            known.event.amplitude = event.amplitude;
-    }
-    RecentContact* find(const CollisionEvent& event) {
-        if (event.source.kind == ContactKind::hit) return nullptr;
-        const auto isSameContact = [&](const RecentContact& c) {
-            const CollisionSource &a = c.event.source, &b = event.source;
-            return a.kind == b.kind && a.fixture == b.fixture && a.other == b.other &&
-                   event.timeNs - c.lastNs < pauseNs;
-        };
-        const auto found = std::ranges::find_if(contacts_, isSameContact);
-        return found == contacts_.end() ? nullptr : &*found;
-    }
     std::deque<RecentContact> contacts_;
     std::deque<Grain> grains_;
     std::uint64_t begun_ = 0;

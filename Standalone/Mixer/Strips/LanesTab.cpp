@@ -67,7 +67,7 @@ void LanesTab::refresh(const MixerMoment&) {
 
 void LanesTab::Rows::paint(juce::Graphics& g) {
     g.setFont(text::font(text::medium, juce::Font::bold));
-    const auto& mix = model_.mix();
+    const auto& mix = model.mix();
     for (std::size_t i = 0; i < std::min(lanes.size(), mix.strips.size() + mix.groups.size()); ++i) {
         const bool isStrip = i < mix.strips.size();
         g.setColour(isStrip ? enchanterColour(*this, static_cast<int>(i)) : shade(*this, Shade::text));

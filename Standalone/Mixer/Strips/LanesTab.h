@@ -62,16 +62,13 @@ public:
 
 private:
     /// Labels beside the lanes; scrolls with them.
-    class Rows final : public juce::Component {
-    public:
-        explicit Rows(MixerModel& model)
-            : model_{model} {}
+    struct Rows final : juce::Component {
+        explicit Rows(MixerModel& of)
+            : model{of} {}
         void paint(juce::Graphics& g) override;
 
+        MixerModel& model;
         std::vector<std::unique_ptr<LaneRow>> lanes;
-
-    private:
-        MixerModel& model_;
     };
     double spanSeconds() const;
 

@@ -756,10 +756,7 @@ void MixerWindow::newDocument() {
     });
 }
 
-void MixerWindow::openDocument() {
-    chooseFile("Open a session, a scene or a layout", sessionEnding, false,
-               [this](const juce::File& file) { openFile(file); });
-}
+void MixerWindow::openDocument() { import("Open a session, a scene or a layout"); }
 
 void MixerWindow::openDocument(const juce::File& file) {
     askThen([this, file] {

@@ -101,8 +101,9 @@ bool isPlayedTo(MixerModel& model, std::int64_t ns = 500'000'000) {
 
 /// The card for a file, when it is open; throws where none comes.
 FileCard& fileCard(MixerWindow& window) {
-    runUntil([&] { return dynamic_cast<FileCard*>(window.view().card()) != nullptr; });
-    return dynamic_cast<FileCard&>(*window.view().card());
+    FileCard* card = nullptr;
+    runUntil([&] { return (card = dynamic_cast<FileCard*>(window.view().card())) != nullptr; });
+    return card != nullptr ? *card : throw std::runtime_error{"no card for a file"};
 }
 
 /// For windows that have a folder of settings in common.
