@@ -88,7 +88,8 @@ std::vector<Action> noteActions(const NoteRule& rule, const Scene& scene) {
     if (rule.kind == NoteKind::strike) return {};
     SpawnAction spawn;
     spawn.body.name = "note " + std::to_string(rule.note);
-    spawn.body.fixtures.push_back({CircleShape{rule.radiusMetres}, {}, 0.0, rule.material});
+    const FixtureDescription disc{CircleShape{rule.radiusMetres}, {}, 0.0, rule.material};
+    spawn.body.fixtures.push_back(disc);
     spawn.body.positionMetres = {rule.x * scene.fieldWidthMetres, rule.y * scene.fieldHeightMetres};
     spawn.body.velocityMetresPerSecond = rule.atFullVelocity;
     return {spawn};

@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::arguments_test {
 
 constexpr int channels = 4, rate = 8000, frames = 4000;
 constexpr physvib_int64 ms = 1'000'000;
@@ -319,5 +318,4 @@ TEST(Arguments, OnlyWhatFitsIsToldAsSentToAPad) {
     physvib_pads_free(pads);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::arguments_test

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The library as a program in another language sees it.
 #include "Core/PanningLaws.h"
-#include "Support/BegunStructs.h"
 #include "Support/RandomCalls.h"
 #include "Support/ReadWav.h"
 #include "Support/SizedEvents.h"
@@ -17,8 +16,7 @@
 #include <string>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::calls_test {
 
 using test::places, test::step, test::touching, test::worldOfABall;
 
@@ -483,5 +481,4 @@ TEST(Calls, AnyOrderOfCallsWithAnythingIsAnsweredByACode) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::calls_test

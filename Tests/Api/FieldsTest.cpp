@@ -17,8 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::fields_test {
 
 /// What a world is told: its settings, three bodies, and a contact in each of 30 steps.
 struct Told {
@@ -409,5 +408,4 @@ TEST(Fields, WhatAListKeepsIsKept) {
     std::remove(path.c_str());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::fields_test

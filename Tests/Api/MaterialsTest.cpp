@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::materials_test {
 
 physvib_body body() {
     physvib_body made = test::feltBall(0.25);
@@ -158,5 +157,4 @@ TEST(Gain, AWorldOfTheCLibraryLearnsItsLevel) {
     EXPECT_STREQ(physvib_error(), "full-scale impulse: expected 0 (off), more than 0 N s, or -1 (automatic)");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::materials_test

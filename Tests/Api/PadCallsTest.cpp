@@ -10,8 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::pad_calls_test {
 
 constexpr physvib_int64 secondNs = 1'000'000'000;
 
@@ -165,5 +164,4 @@ TEST(PadCalls, RefusesWithALine) {
     EXPECT_EQ(physvib_pads_strike(pads.name, 0, &hit), PHYSVIB_ERROR_FULL);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::pad_calls_test

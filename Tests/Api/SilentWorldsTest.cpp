@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // Worlds from which nothing is felt, each for one reason: the explanation names it, and what to change.
-#include "Support/BegunStructs.h"
 #include "Support/SizedEvents.h"
 #include <array>
 #include <functional>
@@ -8,8 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::silent_worlds_test {
 
 /// A floor (body 0), a ball of 2 kg above it (body 1) that is a haptic source, and a renderer with their
 /// field. Nothing is wrong with them.
@@ -375,5 +373,4 @@ TEST(SilentWorlds, RefuseWhatIsNoNote) {
               PHYSVIB_ERROR_HANDLE);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::silent_worlds_test

@@ -7,8 +7,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace physvib {
-namespace {
+namespace physvib::sizes_test {
 
 using test::eventSizes;
 using test::SizedEvents;
@@ -225,5 +224,4 @@ TEST(Sizes, TheLayoutOfSettingsSaysWhatFits) {
     EXPECT_EQ(physvib_renderer_create(&settings, &renderer), PHYSVIB_ERROR_ARGUMENT);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::sizes_test

@@ -10,8 +10,7 @@
 #include <physvib/physvib.h>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::space_calls_test {
 
 physvib_event tapAt(double x, double y, double z, const char* part = nullptr) {
     auto event = test::begun(physvib_event_init);
@@ -77,5 +76,4 @@ TEST(SpaceCalls, WrongDepthsAndPartsAreRefused) {
                  "layout: expected an extent above 0 m, places that are numbers and parts from 0 on");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::space_calls_test

@@ -10,8 +10,7 @@
 #include <thread>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::storm_test {
 
 constexpr int bodies = 2000;
 constexpr std::size_t room = 1024; // of a step
@@ -155,5 +154,4 @@ TEST(Busy, ASecondThreadIsToldAndEachFrameIsRenderedOnce) {
     EXPECT_EQ(physvib_renderer_free(renderer), PHYSVIB_OK);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::storm_test

@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 #include <iostream>
 
-namespace physvib {
-namespace {
+namespace physvib::board_link_test {
 
 using State = BoardLinkStatus::State;
 constexpr std::int64_t ms = 1'000'000;
@@ -136,5 +135,4 @@ TEST_F(BoardLinkTest, ACrowdIsThinnedWeakestFirstAndCounted) {
     expectEachStrikeIsCounted();
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::board_link_test

@@ -12,8 +12,7 @@
 #include <optional>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::board_output_test {
 
 constexpr std::int64_t ms = 1'000'000;
 
@@ -159,5 +158,4 @@ TEST_F(BoardOutputTest, SilenceAndMutesHoldForBoth) {
     expectHits(6);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::board_output_test

@@ -9,8 +9,7 @@
 #include "VirtualBoard.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::called_boards_test {
 
 constexpr std::int64_t second = 1'000'000'000;
 
@@ -108,5 +107,4 @@ TEST_F(CalledBoards, ATonesSecondMinuteIsPlayedToo) {
     EXPECT_NE(segments[0].start[0], 0);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::called_boards_test

@@ -3,8 +3,7 @@
 #include "FakeBoard.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::fake_board_test {
 
 constexpr std::int64_t ms = 1'000'000;
 
@@ -178,5 +177,4 @@ TEST(StoppedBoards, TellOfThisCallAlone) {
     })) << told;
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::fake_board_test

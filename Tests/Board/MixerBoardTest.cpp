@@ -4,8 +4,7 @@
 #include "Mixer/Window/MixerWindow.h"
 #include "VirtualBoard.h"
 
-namespace physvib {
-namespace {
+namespace physvib::mixer_board_test {
 
 using namespace test;
 /// Of the one sink that is wanted; not ready while there is none.
@@ -117,5 +116,4 @@ TEST(MixerBoard, ThatDoesNotAnswerIsTold) {
     EXPECT_TRUE(model.look().device.isRunning) << "the device plays on";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::mixer_board_test

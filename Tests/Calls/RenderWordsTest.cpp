@@ -8,8 +8,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::render_words_test {
 
 Result<RenderJob> jobOf(const std::string& call) {
     OptionTable table{"render", {}};
@@ -285,5 +284,4 @@ TEST(OptionTables, TheCommandOfACallIsKnown) {
     EXPECT_NE(parseText(program, "").fault, "");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::render_words_test

@@ -81,8 +81,8 @@ TEST_F(ActuatorCommand, AMeasuredFullScaleReachesEveryLevelInG) {
     const auto other = call("render --from-events hits.csv --layout layout.json --actuator layout --equalise "
                             "off --seconds 1 --out two.wav");
     EXPECT_TRUE(has(other.err,
-                      "layout.json: actuator A: levels are printed with full_scale_g 1 of the layout; "
-                      "mine.json was measured as 5"));
+                    "layout.json: actuator A: levels are printed with full_scale_g 1 of the layout; "
+                    "mine.json was measured as 5"));
 }
 
 TEST_F(ActuatorCommand, LevelsAreToldInDecibelsAndInG) {
@@ -92,8 +92,7 @@ TEST_F(ActuatorCommand, LevelsAreToldInDecibelsAndInG) {
     const auto outcome =
         call("render --from-events hits.csv --layout layout.json --seconds 1 --out a.wav --events b.csv");
     EXPECT_TRUE(has(outcome.out, "peak -6.1 dBFS (0.69 g)"));
-    EXPECT_TRUE(
-        has(outcome.out, "2 collisions, 0.0098 g to 0.70 g, 1 under one step of an 8-bit converter"));
+    EXPECT_TRUE(has(outcome.out, "2 collisions, 0.0098 g to 0.70 g, 1 under one step of an 8-bit converter"));
 }
 
 TEST_F(ActuatorCommand, WritesWhenAMotorWouldBeOn) {

@@ -2,8 +2,7 @@
 // `physvib analyse` as researchers and scripts hold on to it: lines, warnings, refusals.
 #include "Calls.h"
 
-namespace physvib {
-namespace {
+namespace physvib::analyse_command_test {
 
 using Analyse = test::CommandLine;
 
@@ -283,5 +282,4 @@ TEST_F(AnalyseFits, TestsThatWentToRSayWhereTheyAre) {
                 1);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::analyse_command_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace physvib {
-namespace {
+namespace physvib::beats_command_test {
 
 using test::BeatSong;
 using test::Drum;
@@ -116,5 +115,4 @@ TEST_F(BeatsCommand, RefusesInOneLineAndLeavesNothing) {
     refuses("play shake-the-box --device none --beats 0", 2, "--beats: expected inputs like 1,2", 4);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::beats_command_test

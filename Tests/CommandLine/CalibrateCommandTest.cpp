@@ -10,8 +10,7 @@
 #include <sstream>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::calibrate_command_test {
 
 class CalibrateCommand : public test::CommandLine {
 protected:
@@ -233,5 +232,4 @@ TEST_F(MaterialCommand, BadCallsAreUsageErrors) {
     refuses("material a.wav --list", 2, "give either FILE.wav or --list");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::calibrate_command_test

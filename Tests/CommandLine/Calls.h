@@ -64,12 +64,6 @@ protected:
         const int status = std::system(command.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(".out"), read(".err")};
     }
-    /// A call that succeeds.
-    Outcome runs(const std::string& arguments) const {
-        Outcome outcome = call(arguments);
-        EXPECT_EQ(outcome.exitCode, 0) << arguments << "\nsaid: " << outcome.out << outcome.err;
-        return outcome;
-    }
     std::string read(const std::string& name) const {
         std::ifstream file{folder_ / name, std::ios::binary};
         return {std::istreambuf_iterator<char>{file}, {}};
@@ -94,7 +88,7 @@ protected:
     /// The same of a call that has to succeed.
     Outcome runs(const std::string& arguments, const std::string& before = {}) const {
         Outcome outcome = call(arguments, before);
-        EXPECT_EQ(outcome.exitCode, 0) << arguments << "\nsaid: " << outcome.err;
+        EXPECT_EQ(outcome.exitCode, 0) << arguments << "\nsaid: " << outcome.out << outcome.err;
         return outcome;
     }
     /// Samples of a WAV of floats, as `render` writes it, by channel.

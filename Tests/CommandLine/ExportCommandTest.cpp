@@ -7,8 +7,7 @@
 #include <cstring>
 #include <sstream>
 
-namespace physvib {
-namespace {
+namespace physvib::export_command_test {
 
 using ClipSignals = std::vector<std::vector<float>>; // [channel][frame]
 
@@ -223,5 +222,4 @@ TEST_F(ExportCommand, RefusesInOneLine) {
     refuses("render giga.ahap --out a.wav", 1, "giga.ahap: expected at most 24000000 bytes, found more", 2);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::export_command_test

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <sys/stat.h>
 
-namespace physvib {
-namespace {
+namespace physvib::hostile_files_test {
 
 using namespace test;
 
@@ -273,5 +272,4 @@ TEST_F(StrangersCall, NothingIsWrittenThroughALinkThatLeadsElsewhere) {
     runs("render drop --seconds 0.1 --out theirs/latest.wav"); // within it, they are followed
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::hostile_files_test

@@ -8,8 +8,7 @@
 #include <numbers>
 #include <sstream>
 
-namespace physvib {
-namespace {
+namespace physvib::isolation_command_test {
 
 struct Tone {
     double amplitude = 0.0, degrees = 0.0;
@@ -274,7 +273,7 @@ TEST_F(CouplingCommand, TheDriveIsAtMostThreeDecibelsStrongerEvenWhereThatIsNotE
 TEST_F(CouplingCommand, TellsWhatIsLeftAndWhereTheDriveCameFrom) {
     const auto outcome = runs(render + "--coupling c.json --events b.csv");
     EXPECT_TRUE(has(outcome.err, "coupling: what is felt differs from what is wanted by 0.0 %, without "
-                                   "compensation by 30.0 %; by 2"));
+                                 "compensation by 30.0 %; by 2"));
     EXPECT_TRUE(has(outcome.err, " where it is off by up to 2 dB and 20 degrees; strongest drive "));
     EXPECT_TRUE(has(read("b.csv"), "coupling=c.json"));
     const std::string once = read("a.wav");
@@ -301,5 +300,4 @@ TEST_F(CouplingCommand, RefusesInOneLineWhatDoesNotFit) {
     refuses(render + "--coupling c.json", 1, "c.json: physvib_coupling: made for a newer PhysVib", 4);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::isolation_command_test

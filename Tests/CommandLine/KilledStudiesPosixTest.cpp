@@ -14,8 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace physvib {
-namespace {
+namespace physvib::killed_studies_posix_test {
 
 class KilledStudies : public ::testing::TestWithParam<std::size_t> {
 protected:
@@ -143,5 +142,4 @@ INSTANTIATE_TEST_SUITE_P(OfEveryStudy, KilledStudies, ::testing::Range(std::size
                              return name;
                          });
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::killed_studies_posix_test

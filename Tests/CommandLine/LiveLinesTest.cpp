@@ -13,8 +13,7 @@
 #include <thread>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::live_lines_test {
 
 using namespace std::chrono_literals;
 
@@ -242,5 +241,4 @@ TEST(LineCutter, NothingOfALineThatIsTooLongIsTakenForAnother) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::live_lines_test

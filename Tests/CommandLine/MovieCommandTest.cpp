@@ -76,8 +76,8 @@ TEST(RenderMovie, EachActuatorShinesByWhatItPlays) {
 
 TEST_F(MovieCommand, LastsAsLongAsTheRenderAndMoves) {
     const auto made = runs("render drop --seconds 1.5 --movie drop.webp --events drop.csv");
-    EXPECT_TRUE(has(made.out,
-                      "drop.webp  the world, its impacts and every channel in time, 20 pictures per second"));
+    EXPECT_TRUE(
+        has(made.out, "drop.webp  the world, its impacts and every channel in time, 20 pictures per second"));
     const auto movie = animationOf(read("drop.webp"));
     EXPECT_EQ(movie.width, 960u);
     EXPECT_EQ(movie.height, 640u);

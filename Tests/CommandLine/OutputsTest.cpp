@@ -9,8 +9,7 @@
 #include <fcntl.h>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::outputs_test {
 
 using namespace std::chrono_literals;
 
@@ -212,5 +211,4 @@ TEST_F(Outputs, AFullDiskIsToldAndLeavesTheOldFiles) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::outputs_test

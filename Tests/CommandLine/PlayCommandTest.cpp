@@ -9,8 +9,7 @@
 #include <limits>
 #include <sstream>
 
-namespace physvib {
-namespace {
+namespace physvib::play_command_test {
 
 using PlayCommand = test::CommandLine;
 
@@ -225,5 +224,4 @@ TEST_F(PadsCommand, TheCoilsOfADualSenseAreALayoutOfTwoGrips) {
     EXPECT_TRUE(has(outcome.out, "2 channels"));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::play_command_test

@@ -6,8 +6,7 @@
 #include "Lab/Report/ReportBuilder.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::protocol_examples_test {
 
 class ProtocolExamples : public test::CommandLine {
 protected:
@@ -142,5 +141,4 @@ TEST(ProtocolWords, SessionsHaveTheirMethodsWithDefaults) {
               "| Strongly agree");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::protocol_examples_test

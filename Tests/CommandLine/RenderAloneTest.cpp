@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <array>
 
-namespace physvib {
-namespace {
+namespace physvib::render_alone_test {
 
 class RenderAlone : public test::CommandLine {
 protected:
@@ -166,5 +165,4 @@ TEST_F(SceneFiles, WrongSettingsAreRefused) {
             "--set: only a scene has variables", 1);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::render_alone_test

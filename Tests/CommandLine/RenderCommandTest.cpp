@@ -9,8 +9,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace physvib {
-namespace {
+namespace physvib::render_command_test {
 
 using Render = test::CommandLine;
 
@@ -209,9 +208,8 @@ TEST_F(Render, MethodsFixWhatTheirNamesSay) {
     EXPECT_EQ(read("b.wav"), read("a.wav"));
     EXPECT_EQ(read("b.csv"), read("a.csv"));
     const auto outcome = runs("render drop --seconds 3 --method AF-FF-DRF --out c.wav --events c.csv");
-    EXPECT_TRUE(
-        has(outcome.err,
-              "fixed level of 1.5 g is above the actuators' full scale of 1 g; the limiter lowers it"));
+    EXPECT_TRUE(has(outcome.err,
+                    "fixed level of 1.5 g is above the actuators' full scale of 1 g; the limiter lowers it"));
     const auto varied = readEventsCsv(read("a.csv"), "a.csv"), fixed = readEventsCsv(read("c.csv"), "c.csv");
     ASSERT_EQ(fixed.value.events.size(), varied.value.events.size());
     ASSERT_FALSE(fixed.value.events.empty());
@@ -282,5 +280,4 @@ TEST_F(Render, ScenesAreListedOnePerLine) {
     EXPECT_EQ(outcome.out.rfind("shake-the-box", 0), 0u);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::render_command_test

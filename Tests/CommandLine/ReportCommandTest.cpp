@@ -9,8 +9,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace physvib {
-namespace {
+namespace physvib::report_command_test {
 
 class Report : public test::CommandLine {
 protected:
@@ -488,5 +487,4 @@ TEST_F(Report, RefusalsLeaveNothing) {
     EXPECT_EQ(read("in/trials.csv"), read("magnitudes-P01.csv"));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::report_command_test

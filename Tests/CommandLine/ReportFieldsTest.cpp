@@ -12,8 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-namespace physvib {
-namespace {
+namespace physvib::report_fields_test {
 
 class ReportFields : public test::CommandLine {
 protected:
@@ -297,5 +296,4 @@ TEST(BidsDataset, EveryColumnIsDescribed) {
     EXPECT_TRUE(has(files.at("README"), "SIMULATED"));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::report_fields_test

@@ -8,8 +8,7 @@
 #include "Support/Has.h"
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::report_sentences_test {
 
 using namespace test;
 
@@ -327,5 +326,4 @@ TEST(ReportSentences, EachIsThereOnlyWhereRowsMakeItTrue) {
     for (const std::string& sentence : unknown) ADD_FAILURE() << "without a counter-example: " << sentence;
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::report_sentences_test

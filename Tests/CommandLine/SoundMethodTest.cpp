@@ -5,8 +5,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace physvib {
-namespace {
+namespace physvib::sound_method_test {
 
 class SoundMethod : public test::CommandLine {
 protected:
@@ -70,7 +69,7 @@ TEST_F(SoundMethod, MarksAreAFileOfTheirOwnInSyncWithWhatIsFelt) {
         "render --from-events close.csv --layout phone1 --seconds 1 --out a.wav --marker m.wav";
     const auto outcome = runs(render);
     EXPECT_TRUE(has(outcome.out, "m.wav  a pulse at each onset: 1 channel, 2 pulses for 3 onsets: 1 came "
-                                   "within 0.5 ms of another"));
+                                 "within 0.5 ms of another"));
     const auto felt = samplesOf("a.wav"), marks = samplesOf("m.wav");
     ASSERT_EQ(felt.size(), marks.size());
     for (const std::size_t onset : {9601u, 28801u}) {
@@ -222,5 +221,4 @@ TEST_F(PerceivedLevelCommand, IsRefusedWhereItMeansNothing) {
             "--board: not yet with --method, --level-db, --gamma, --perceived-level and --actuator", 1);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::sound_method_test

@@ -4,8 +4,7 @@
 #include "Calls.h"
 #include <sstream>
 
-namespace physvib {
-namespace {
+namespace physvib::spoiled_studies_test {
 
 struct Spoiled {
     const char* name;
@@ -170,5 +169,4 @@ TEST_F(StudyFaults, EveryPlantedFaultIsRefusedWithItsPlaceBeforeAnythingIsAsked)
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::spoiled_studies_test

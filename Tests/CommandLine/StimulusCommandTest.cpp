@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace physvib {
-namespace {
+namespace physvib::stimulus_command_test {
 
 using StimulusCommand = test::CommandLine;
 
@@ -86,8 +85,8 @@ TEST_F(StimulusCommand, WhatLiesBelow5HzInARecordingIsTakenAwayAndTold) {
         samples[n] += 0.02f * std::sin(0.16f * static_cast<float>(n));
     writeWav("offset.wav");
     const auto outcome = runs("stimulus wav offset.wav --at 0,0 --layout phone1 --out a.wav");
-    EXPECT_TRUE(has(outcome.err,
-                      "offset.wav: what lies below 5 Hz is not played: a mean of 0.50, of full scale\n"));
+    EXPECT_TRUE(
+        has(outcome.err, "offset.wav: what lies below 5 Hz is not played: a mean of 0.50, of full scale\n"));
     const auto placed = samplesOf(read("a.wav"));
     EXPECT_NEAR(*std::ranges::min_element(placed), -1.0f, 0.01f);
     EXPECT_NEAR(*std::ranges::max_element(placed), 1.0f, 0.01f);
@@ -116,5 +115,4 @@ TEST_F(StimulusCommand, BadCallsAreUsageErrors) {
     refuses("stimulus phantom --at 0,0 --frequency 4000 --rate 8000 --out a.wav", 1, "below half the rate");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::stimulus_command_test

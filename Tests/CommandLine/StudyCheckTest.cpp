@@ -6,8 +6,7 @@
 #include <map>
 #include <sstream>
 
-namespace physvib {
-namespace {
+namespace physvib::study_check_test {
 
 class StudyCheckCommand : public test::CommandLine {
 protected:
@@ -149,5 +148,4 @@ TEST_F(StudyCheckCommand, BreaksThatDoNotHappenAreFound) {
         << read(".out");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::study_check_test

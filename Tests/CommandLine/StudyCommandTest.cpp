@@ -7,8 +7,7 @@
 #include <cmath>
 #include <cstring>
 
-namespace physvib {
-namespace {
+namespace physvib::study_command_test {
 
 class Study : public test::CommandLine {
 protected:
@@ -264,5 +263,4 @@ TEST_F(Study, BadCallsAndFilesAreRefused) {
             "bad.json: condition A: expected as many enchanters as the layout has (2), found 4", 2);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::study_command_test

@@ -11,8 +11,7 @@
 #include <set>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::contact_counts_test {
 
 ContactCounts tenContacts() {
     ContactCounts counts;
@@ -205,5 +204,4 @@ TEST(GodotsWords, HaveNoNameOfC) {
     for (const std::string& name : names) EXPECT_TRUE(said.contains(name)) << name;
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::contact_counts_test

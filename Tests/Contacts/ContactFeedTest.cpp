@@ -6,8 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace physvib {
-namespace {
+namespace physvib::contact_feed_test {
 
 constexpr std::int32_t ground = 0, ball = 1;
 
@@ -396,5 +395,4 @@ TEST_F(ContactFeedRubs, WhatIsTakenAwayOrNotToldRubsNoMore) {
     EXPECT_TRUE(events().empty());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::contact_feed_test

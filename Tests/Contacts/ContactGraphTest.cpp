@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::contact_graph_test {
 
 constexpr int nodes = 40;
 
@@ -163,5 +162,4 @@ TEST(ChainLoads, ASourceReceivesOnceHoweverWeakItsFirstImpulseIs) {
     EXPECT_EQ(loads.passed(slots[0]).other, slots[2]);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::contact_graph_test

@@ -5,8 +5,7 @@
 #include <array>
 #include <functional>
 
-namespace physvib {
-namespace {
+namespace physvib::contact_kicks_test {
 
 /// How an engine tells what touches.
 enum class Telling { impulses, impulseOfPair, speeds, springs, motions };
@@ -220,5 +219,4 @@ TEST_P(Kicks, WhatRestsRidesOrIsCarriedIsSilent) {
     EXPECT_TRUE(stack.felt().empty()) << "a platform that rocks by 3 m/s^2";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::contact_kicks_test

@@ -3,8 +3,7 @@
 // solved together.
 #include "FedWorld.h"
 
-namespace physvib {
-namespace {
+namespace physvib::contact_points_test {
 
 constexpr std::int32_t ground = 0, body = 1;
 constexpr double dt = 0.01;
@@ -238,5 +237,4 @@ TEST_F(ContactPoints, OfNumbersBelowTwoAndImpulsesThatAreMissingAreRefused) {
     EXPECT_TRUE(events().empty());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::contact_points_test

@@ -4,8 +4,7 @@
 #include <array>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::contact_space_test {
 
 constexpr std::int64_t stepNs = 10'000'000;
 
@@ -99,7 +98,7 @@ class TurnedWorlds : public testing::TestWithParam<int> {};
 TEST_P(TurnedWorlds, OfAPlaneThatStandsUprightAreTheSameToTheBitButForThePlace) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const auto flat = randomWorld(seed, GetParam(), {}),
-                   upright = randomWorld(seed, GetParam(), physvib::upright());
+                   upright = randomWorld(seed, GetParam(), contact_space_test::upright());
         ASSERT_GT(flat.size(), 50U);
         ASSERT_EQ(flat.size(), upright.size());
         for (std::size_t i = 0; i < flat.size(); ++i) {
@@ -270,5 +269,4 @@ TEST_F(ContactSpace, WhatIsNoMotionInSpaceIsNamed) {
     EXPECT_EQ(feed.touch(at({0.0F, 0.0F, nan}, {0.0F, 1.0F, 0.0F})), "point: expected numbers");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::contact_space_test

@@ -8,8 +8,7 @@
 #include <map>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::event_sorter_test {
 
 CollisionEvent event(std::int64_t timeNs, std::int32_t fixture = 0, double amplitude = 0.0) {
     return {.timeNs = timeNs, .amplitude = amplitude, .source = {.fixture = fixture}};
@@ -149,5 +148,4 @@ TEST(NameSketch, OfCamerasFollowsTheTable) {
     EXPECT_FALSE(table.mayBeCamera(address(1)));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::event_sorter_test

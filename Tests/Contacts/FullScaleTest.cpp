@@ -4,8 +4,7 @@
 #include "FedWorld.h"
 #include <limits>
 
-namespace physvib {
-namespace {
+namespace physvib::full_scale_test {
 
 constexpr std::int32_t ground = 0, ball = 1, other = 2;
 constexpr double oneSecond = 1.0, stepSeconds = 0.01;
@@ -165,5 +164,4 @@ TEST(ImpactModel, AmplitudeIsImpulseOverMassesTimesNormalisationAndDriveGain) {
     EXPECT_DOUBLE_EQ(defaultNormalisation(4.0), 0.125); // the fastest crosses the field in a second
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::full_scale_test

@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::grains_test {
 
 struct Pass {
     std::int64_t index;
@@ -235,5 +234,4 @@ TEST_F(LastingStream, ManyTogetherStayBelowTheirBound) {
     EXPECT_GT(impacts.size(), 200U);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::grains_test

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::actuator_equaliser_test {
 
 /// The actuators of the profiles, whose Q nobody printed, with some likely ones, and bands to ask of them.
 using Case = EqualisedActuator;
@@ -139,5 +138,4 @@ TEST(ActuatorEqualiser, WithoutFiguresItPassesEverything) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::actuator_equaliser_test

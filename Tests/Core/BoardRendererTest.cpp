@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::board_renderer_test {
 
 using test::BoardFrame;
 constexpr BoardFrame silence{128, 128, 128, 128};
@@ -314,5 +313,4 @@ TEST(BoardGuard, OpensAgain) {
               test::renderBoardEvents(*test::preparedBoard(), {shifted}, 8000));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::board_renderer_test

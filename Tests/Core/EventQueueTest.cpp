@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::event_queue_test {
 
 TEST(EventQueue, FullQueueRefusesCountsAndKeepsWhatItHas) {
     EventQueue<int, 4> queue;
@@ -241,5 +240,4 @@ TEST(LatestValue, IsNeverTornAndNeverGoesBackBetweenTwoThreads) {
     EXPECT_EQ(value.read().words[7], count);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::event_queue_test

@@ -7,8 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::event_shaping_test {
 
 TEST(FrequencyRemap, KeepsTheOrderAndFillsTheBand) {
     const FrequencyRemap remap{{180, 230}};
@@ -264,5 +263,4 @@ TEST(PerceivedLevel, WeighsTheFrequencyThatIsPlayedAfterTheGainAndNothingElse) {
     EXPECT_EQ(shaping(e).amplitude, e.amplitude) << "250 Hz is what all is compared to";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::event_shaping_test

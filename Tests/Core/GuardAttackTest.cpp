@@ -4,8 +4,7 @@
 #include "Support/GuardAttack.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::guard_attack_test {
 
 using namespace test;
 
@@ -37,5 +36,4 @@ TEST(GuardAttack, ARateThatChangesOpensNothing) {
     EXPECT_LE(slowFigures(left, rate).mean, limits::guardShare);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::guard_attack_test

@@ -7,8 +7,7 @@
 #include "Support/Sets.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::haptic_renderer_test {
 
 using test::gridLayout;
 using test::randomEvents;
@@ -354,5 +353,4 @@ TEST(HapticRenderer, LeavesTheCallersDenormalModeAsItWas) {
     EXPECT_NE(tiny * 1.0f, 0.0f);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::haptic_renderer_test

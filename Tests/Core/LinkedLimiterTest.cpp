@@ -14,8 +14,7 @@
 #include <numbers>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::linked_limiter_test {
 
 constexpr int rate = 48000, channels = 8;
 using Block = std::vector<std::vector<float>>;
@@ -326,5 +325,4 @@ TEST(ChannelDelay, TellsWhenNothingIsOnItsWay) {
     EXPECT_EQ(heard, 1);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::linked_limiter_test

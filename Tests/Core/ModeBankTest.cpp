@@ -11,8 +11,7 @@
 #include <map>
 #include <memory>
 
-namespace physvib {
-namespace {
+namespace physvib::mode_bank_test {
 
 constexpr int rate = 48000;
 
@@ -410,5 +409,4 @@ TEST(ModeIndex, FindsWhatIsThereWhateverCameAndWent) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::mode_bank_test

@@ -12,8 +12,7 @@
 #include <numbers>
 #include <string>
 
-namespace physvib {
-namespace {
+namespace physvib::moving_tones_test {
 
 constexpr int rate = 48000;
 constexpr double hz = 205.0;
@@ -338,5 +337,4 @@ TEST(Travel, IsFeltWhereItIsByTheDefaultLawAndThePageSaysSo) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::moving_tones_test

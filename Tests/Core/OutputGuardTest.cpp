@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::output_guard_test {
 
 constexpr double most = limits::guardShare, turn = 2.0 * std::numbers::pi;
 using Samples = std::vector<float>;
@@ -336,5 +335,4 @@ TEST(ExposureMeter, AddsNothingToSilence) {
     EXPECT_EQ(meter.read().weighted[0], weighted);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::output_guard_test

@@ -6,8 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::pad_motors_test {
 
 constexpr std::int64_t ms = 1'000'000;
 
@@ -266,5 +265,4 @@ TEST(FullMotors, LoseTheWeakestWhicheverThatIs) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::pad_motors_test

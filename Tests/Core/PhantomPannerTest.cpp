@@ -14,8 +14,7 @@
 #include <utility>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::phantom_panner_test {
 
 constexpr double W = 6.4, H = 3.6; // field metres
 
@@ -277,5 +276,4 @@ TEST(EnchanterLayout, CountExtentsAndTheFirstCountPlacesMustBeValid) {
     EXPECT_FALSE(with([](auto& l) { l.places[2] = {-infinity, 0.0}; }));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::phantom_panner_test

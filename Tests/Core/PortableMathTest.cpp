@@ -10,8 +10,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::portable_math_test {
 
 using Long = long double;
 
@@ -204,5 +203,4 @@ TEST(Trigonometry, DecayIsExactAtWholeOctaves) {
                   std::exp2(static_cast<float>(-n)));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::portable_math_test

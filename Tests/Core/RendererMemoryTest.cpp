@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace physvib {
-namespace {
+namespace physvib::renderer_memory_test {
 
 std::size_t bytesTaken = 0;
 
@@ -159,5 +158,4 @@ TEST(RendererRefusal, AMoveToNoRateChangesNothing) {
     EXPECT_FALSE(isSilent(blockOf(*renderer), 2));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::renderer_memory_test

@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::rendering_method_test {
 
 constexpr int rate = 48000;
 
@@ -273,5 +272,4 @@ TEST(FixedLevel, StrikesAndVariedLevelsAreLeftAlone) {
     EXPECT_GT(shaper(hitAt(0.0, 200.0, 50.0)).amplitude, 1.0) << "so that its first peak is 1";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::rendering_method_test

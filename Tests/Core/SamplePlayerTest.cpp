@@ -4,8 +4,7 @@
 #include "Support/Rendering.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::sample_player_test {
 
 const std::vector<float> wood = [] {
     std::vector<float> samples(3000);
@@ -145,5 +144,4 @@ TEST(SamplePlayer, RecordingsThatAreExchangedFadeWithoutAStep) {
         ASSERT_LE(std::abs(out[n] - out[n - 1]), 0.0022f) << n;
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::sample_player_test

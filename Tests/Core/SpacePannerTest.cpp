@@ -13,8 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::space_panner_test {
 
 EnchanterLayout preset(std::string_view name) {
     EnchanterLayout layout;
@@ -155,12 +154,12 @@ TEST(SpacePanner, EnergyIsConstantAndTheCentroidIsThePlaceWithinTheShape) {
                               share);
             }
             const auto gains = gainsAtPlace(panner, place);
-            ASSERT_NEAR(distance(centroidOf(layout, gains), place), 0.0, tolerance) << layout.count;
+            ASSERT_LE(distance(centroidOf(layout, gains), place), std::sqrt(3.0) * tolerance) << layout.count;
             ASSERT_NEAR(energyOf(gains), 1.0, tolerance) << layout.count;
         }
     };
     for (const auto& layout : {octahedron(), preset("sleeve8"), preset("vest16")})
-        expectWithin(layout, PanningLaw::triangles, 2e-12);
+        expectWithin(layout, PanningLaw::triangles, 1e-12);
     for (const auto& layout : flatShapes()) expectWithin(layout, PanningLaw::neighbours, 1e-9);
 }
 
@@ -512,5 +511,4 @@ TEST(TiltedCells, KeptPannersOfPartsGiveTheSameGainsAndFollowTheLayout) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::space_panner_test

@@ -9,8 +9,7 @@
 #include <limits>
 #include <memory>
 
-namespace physvib {
-namespace {
+namespace physvib::stops_and_steals_test {
 
 constexpr std::int64_t ms = 1'000'000;
 constexpr int rate = 8000;
@@ -137,5 +136,4 @@ TEST(StopsOfSound, OfCollisionsSilenceEveryFixtureAndNoStrike) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::stops_and_steals_test

@@ -7,8 +7,7 @@
 #include "Support/FileTesting.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::file_kind_test {
 
 class FileKindTest : public FolderTest {
 protected:
@@ -198,5 +197,4 @@ TEST(InputLine, WhatNamesSilenceAndIsNoOffInItsRightFormAsksForIt) {
         EXPECT_FALSE(asksForSilence(other)) << other;
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::file_kind_test

@@ -6,8 +6,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::gain_lane_test {
 
 Mix four() {
     Mix mix;
@@ -205,5 +204,4 @@ TEST(DeskLimits, AreKeptAsText) {
         EXPECT_FALSE(readDeskLimits(text)) << text;
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::gain_lane_test

@@ -6,8 +6,7 @@
 #include "TestPlaces.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::plugin_state_test {
 
 NoteRule strike(int note, int material, double x, double y) {
     NoteRule rule;
@@ -188,5 +187,4 @@ TEST(PluginState, TheControllersThatVersionOneGaveEveryInstanceAreLeftOut) {
     EXPECT_TRUE(read.value.controllers.empty());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::plugin_state_test

@@ -8,8 +8,7 @@
 #include "TestPlaces.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::session_file_test {
 
 /// The corpus' session with another piece.
 std::string sessionWith(const std::string& from, const std::string& to) {
@@ -239,5 +238,4 @@ TEST(GrainLaw, ComesBackAndIsTheLawOfAllElseWhereAFileNamesNone) {
     EXPECT_EQ(read.enchanters, described.enchanters) << "full scales too";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::session_file_test

@@ -7,8 +7,7 @@
 #include <map>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::clock_test {
 
 TEST(BoardClock, OnsetsAreWithinTwoMillisecondsForThirtySeconds) {
     constexpr double drift = 300e-6, start = 1000.0; // the computer's clock: start + t (1 + drift)
@@ -139,5 +138,4 @@ TEST(BoardLoad, AllModesAndFourTonesThatMovePessimistic) {
 }
 TEST(BoardLoad, HalfTheModesOnAFullLine) { expectLoad(64, fullLine, CostModel::pessimistic, 0.34); }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::clock_test

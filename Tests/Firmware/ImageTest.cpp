@@ -6,8 +6,7 @@
 #include <gtest/gtest.h>
 #include <iostream>
 
-namespace physvib {
-namespace {
+namespace physvib::image_test {
 
 TEST(BoardImage, FitsTheProcessor) {
     const auto image = virtualboard::readElf(PHYSVIB_BOARD_IMAGE);
@@ -128,5 +127,4 @@ TEST(BoardGuardOnTheImage, LeavesTheSelfTestItsBits) {
     EXPECT_LT(rig.renderer().guard().gain(), 1.0f) << "what has left is not forgotten";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::image_test

@@ -6,8 +6,7 @@
 #include <iostream>
 #include <memory>
 
-namespace physvib {
-namespace {
+namespace physvib::parity_test {
 
 void expectParity(const test::BoardListSettings& list, std::uint32_t seed, std::uint32_t frames,
                   bool compact = false) {
@@ -94,5 +93,4 @@ TEST(BoardParity, OverTheBluetoothLine) {
     EXPECT_TRUE(parity.sameState);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::parity_test

@@ -5,8 +5,7 @@
 #include <iostream>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::robustness_test {
 
 using test::BoardFrame;
 constexpr BoardFrame silence{128, 128, 128, 128};
@@ -211,5 +210,4 @@ TEST(BoardRobustness, AFallingSupplyIsSilence) {
     EXPECT_EQ(rig.board.io().converters.codes(), silence);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::robustness_test

@@ -9,8 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::hjif_file_test {
 
 using namespace test;
 
@@ -290,5 +289,4 @@ TEST(AndroidEnvelope, ItIsWrittenAndNotRead) {
               "a.envelope: Android's envelopes are written, not read");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::hjif_file_test

@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::just_outside_test {
 
 using nlohmann::json;
 
@@ -276,5 +275,4 @@ TEST(ClipSound, FollowsAFrequencyThatGlides) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::just_outside_test

@@ -10,8 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::phone_chain_test {
 
 using nlohmann::json;
 
@@ -181,5 +180,4 @@ TEST(PhoneChain, CurvesAreNeutralAtATransientAndHaveAtMostSixteenPoints) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::phone_chain_test

@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-namespace physvib {
-namespace {
+namespace physvib::phone_files_test {
 
 using namespace test;
 using nlohmann::json;
@@ -394,5 +393,4 @@ TEST(ClipFile, TellsWhatIsLost) {
                   "what is above full scale is cut to it: the strongest is 2.00"}));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::phone_files_test

@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::audio_output_test {
 
 using namespace test;
 using namespace std::chrono_literals;
@@ -513,5 +512,4 @@ TEST(AudioOutput, PlugsArePulledWhileTheDevicePlays) {
     EXPECT_EQ(rig.speakers.timesOpened, 0);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::audio_output_test

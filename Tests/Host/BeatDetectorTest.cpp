@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::beat_detector_test {
 
 using test::BeatSong;
 using test::Drum;
@@ -173,5 +172,4 @@ TEST(BandPass, PassesItsBandAndNothingElse) {
     EXPECT_LT(gainAt(2000.0), 0.005f);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::beat_detector_test

@@ -12,8 +12,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::clip_folder_test {
 
 namespace fs = std::filesystem;
 
@@ -160,5 +159,4 @@ TEST_F(ClipFolderTest, AClipThatHasChangedIsNotTheOneThatWasFelt) {
     EXPECT_NE(loadKeptClips(kept).error.find("a.hjif"), std::string::npos);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::clip_folder_test

@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-namespace physvib {
-namespace {
+namespace physvib::device_guard_test {
 
 using namespace test;
 
@@ -211,5 +210,4 @@ TEST(DeviceGuard, AnAttackOverOpeningsFindsNoneThatPasses) {
     EXPECT_LE(worst.mean, limits::guardShare);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::device_guard_test

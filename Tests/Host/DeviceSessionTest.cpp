@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::device_session_test {
 
 using namespace test;
 using namespace std::chrono_literals;
@@ -256,5 +255,4 @@ TEST(DeviceWatch, ADeviceThatWasOpenedAgainHasItsTwoSeconds) {
     EXPECT_TRUE(look.after(1s, 0));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::device_session_test

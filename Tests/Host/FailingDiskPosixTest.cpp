@@ -7,8 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace physvib {
-namespace {
+namespace physvib::failing_disk_posix_test {
 
 using namespace test;
 
@@ -73,5 +72,4 @@ TEST_F(FailingDisksOfRecordings, AreToldByEachPartOfAnExport) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::failing_disk_posix_test

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -181,7 +182,8 @@ Signals playBlocks(Session& session, FakeInterface& interface, int blocks, int f
 
 inline float peakOf(const std::vector<float>& samples) {
     float most = 0.0f;
-    for (const float s : samples) most = std::max(most, std::abs(s));
+    for (const float s : samples) // what is no number is as loud as can be
+        most = std::max(most, std::isnan(s) ? std::numeric_limits<float>::infinity() : std::abs(s));
     return most;
 }
 inline float peakOf(const Signals& outputs) {

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::listening_test {
 
 using namespace test;
 
@@ -280,5 +279,4 @@ TEST(Listening, BeginsAndEndsWhileItPlays) {
     EXPECT_EQ(peakOf(rig.play(0.5)[6]), 0.0f);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::listening_test

@@ -10,8 +10,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::pause_test {
 
 using namespace test;
 using namespace std::chrono_literals;
@@ -199,5 +198,4 @@ TEST(Pause, ADeviceThatIsGoneIsToldAndSoIsWhatWasDropped) {
     rig.close();
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::pause_test

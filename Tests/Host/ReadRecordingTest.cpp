@@ -16,8 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace physvib {
-namespace {
+namespace physvib::read_recording_test {
 
 namespace fs = std::filesystem;
 using test::numberBytes;
@@ -380,5 +379,4 @@ TEST_F(ReadRecording, SurvivesAnything) {
         }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::read_recording_test

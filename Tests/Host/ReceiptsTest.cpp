@@ -10,8 +10,7 @@
 #include <map>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::receipts_test {
 
 using namespace test;
 using namespace std::chrono_literals;
@@ -328,5 +327,4 @@ TEST(Receipts, ABorrowedSessionHasItsOwn) {
     EXPECT_FALSE(one.output.left(0, nsOf(4800), 0).isOver) << "of the output's own";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::receipts_test

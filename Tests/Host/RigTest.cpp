@@ -14,8 +14,7 @@
 #include <optional>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::rig_test {
 
 using namespace test;
 
@@ -209,5 +208,4 @@ TEST(SimulationDriver, NoStepIsMadeOnceAllShallEnd) {
     EXPECT_GT(session.advance(), 0) << "what was due was left";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::rig_test

@@ -14,8 +14,7 @@
 #include <set>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::routing_test {
 
 bool has(const std::vector<int>& list, int value) { return std::ranges::find(list, value) != list.end(); }
 
@@ -235,5 +234,4 @@ TEST_P(AnOutputMap, FadesWhatIsAssignedElsewhere) {
 
 INSTANTIATE_TEST_SUITE_P(Blocks, AnOutputMap, testing::Values(1, 64, 4096));
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::routing_test

@@ -14,8 +14,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::session_recordings_test {
 
 using namespace test;
 
@@ -201,7 +200,7 @@ TEST_F(Recordings, OfASessionAreKeptByPathAndHashAndRenderedAgainToTheBit) {
 
 // The sound of an event leaves a latency after it: so it stands in the list.
 TEST_F(Recordings, EventsStandWhereTheirSoundIs) {
-    Recording recording{folder / "take.wav", 1, 48000};
+    physvib::Recording recording{folder / "take.wav", 1, 48000};
     ASSERT_EQ(recording.error(), "");
     const std::vector<float> silence(4800);
     const float* const channels[] = {silence.data()};
@@ -214,5 +213,4 @@ TEST_F(Recordings, EventsStandWhereTheirSoundIs) {
     EXPECT_EQ(list.value.events[0].timeNs, 15'000'000);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::session_recordings_test

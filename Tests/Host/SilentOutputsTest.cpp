@@ -7,8 +7,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::silent_outputs_test {
 
 using namespace test;
 
@@ -149,5 +148,4 @@ TEST(Levels, NearlyDirectCurrentIsTurnedDownAtTheDevice) {
     EXPECT_LT(played.output.status().guardGain, 1.0f);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::silent_outputs_test

@@ -16,8 +16,7 @@
 #include <thread>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::wav_sink_test {
 
 constexpr int rateHz = 48000;
 
@@ -280,5 +279,4 @@ TEST(WavSink, TellsOfAPlaceItCannotOpen) {
     expectOneLineWith(writeBlocks(::testing::TempDir(), 4, 10, 10), "folder");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::wav_sink_test

@@ -8,8 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace physvib {
-namespace {
+namespace physvib::atomic_file_posix_test {
 
 namespace fs = std::filesystem;
 using AtomicFilePosixTest = FolderTest;
@@ -194,5 +193,4 @@ TEST_F(AtomicFilePosixTest, WhatOthersDoToAShownFileIsTold) {
     EXPECT_EQ(after([&] { fs::remove(folder / "sub" / "real.wav"); }), gone);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::atomic_file_posix_test

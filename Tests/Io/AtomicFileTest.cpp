@@ -9,8 +9,7 @@
 #include <thread>
 #endif
 
-namespace physvib {
-namespace {
+namespace physvib::atomic_file_test {
 
 namespace fs = std::filesystem;
 using AtomicFileTest = FolderTest;
@@ -177,5 +176,4 @@ TEST_F(ReadFileTest, NamesAFolder) {
     EXPECT_TRUE(error.starts_with(folder.string() + ": cannot be read: ")) << error;
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::atomic_file_test

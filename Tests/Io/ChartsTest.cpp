@@ -9,8 +9,7 @@
 #include <iostream>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::charts_test {
 
 std::size_t countOf(const std::string& text, const std::string& what) {
     std::size_t n = 0;
@@ -227,5 +226,4 @@ TEST(Charts, BarsAreAsHighAsTheirValues) {
     EXPECT_NEAR(heightOf(100.0), 250.0, 0.02);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::charts_test

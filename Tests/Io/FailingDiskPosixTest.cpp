@@ -8,8 +8,7 @@
 #include <fstream>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::failing_disk_posix_test {
 
 using namespace test;
 
@@ -118,5 +117,4 @@ TEST_F(FileClash, IsToldWithBothSpellings) {
     EXPECT_EQ(clash({out, "", there}, {"", "phone4", "0.5"}), "");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::failing_disk_posix_test

@@ -7,8 +7,7 @@
 #include <array>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::field_table_test {
 
 enum class Colour { red, green };
 constexpr std::array<std::string_view, 2> colourNames{"red", "green"};
@@ -230,5 +229,4 @@ TEST(CsvTable, IsBoundedInCellsHoweverFewBytesTheyHave) {
     EXPECT_EQ(readCsvTable(text, "t.csv").error, "t.csv:11720: expected at most 3000000 cells in all");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::field_table_test

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The library with devices and sessions as a program in another language sees it, without a device.
-#include "Support/BegunStructs.h"
 #include "Support/RandomLiveCalls.h"
 #include "Support/SizedEvents.h"
 #include <array>
@@ -13,8 +12,7 @@
 #include <unistd.h>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::live_calls_test {
 
 physvib_live opened(const physvib_live_settings* settings = nullptr) {
     physvib_live live = nullptr;
@@ -287,5 +285,4 @@ TEST(LiveCalls, AnyOrderOfCallsWithAnythingIsAnsweredByACode) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::live_calls_test

@@ -7,8 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::actuator_measurement_test {
 
 constexpr int rate = 48000;
 const std::vector<float> sweep = sweepOf({.seconds = 2.0}, rate);
@@ -105,5 +104,4 @@ TEST(ActuatorMeasurement, ACableTellsTheLatencyOfTheLoop) {
               "what was recorded: expected the sweep, found silence");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::actuator_measurement_test

@@ -11,8 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::texture_extractor_test {
 
 constexpr int rate = 48'000;
 constexpr double massKg = 5.0, newtons = 2.0;
@@ -258,5 +257,4 @@ TEST(SlowPart, NothingHidesBehindWhatIsNoNumber) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::texture_extractor_test

@@ -7,8 +7,7 @@
 #include "MixerTesting.h"
 #include <cmath>
 
-namespace physvib {
-namespace {
+namespace physvib::arrangement_test {
 
 using namespace test;
 
@@ -406,5 +405,4 @@ TEST_F(ArrangedView, TheScopeSaysHowManyItShowsWhereThereIsLittleRoom) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::arrangement_test

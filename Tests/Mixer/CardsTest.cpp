@@ -5,8 +5,7 @@
 #include "MixerTesting.h"
 #include <cstdlib>
 
-namespace physvib {
-namespace {
+namespace physvib::cards_test {
 
 using namespace test;
 
@@ -204,5 +203,4 @@ TEST(UserFolder, NothingIsOverwritten) {
     EXPECT_EQ(folder.fresh("take", endings).value, home("take-3.wav"));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::cards_test

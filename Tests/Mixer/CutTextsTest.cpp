@@ -6,8 +6,7 @@
 #include "Mixer/Widgets/Cards.h"
 #include "MixerTesting.h"
 
-namespace physvib {
-namespace {
+namespace physvib::cut_texts_test {
 
 using namespace test;
 
@@ -316,5 +315,4 @@ TEST_P(Contrasts, OfCards) {
 INSTANTIATE_TEST_SUITE_P(Looks, Contrasts, testing::Values(Theme::dark, Theme::light),
                          [](const auto& theme) { return theme.param == Theme::dark ? "dark" : "light"; });
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::cut_texts_test

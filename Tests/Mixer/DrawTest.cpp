@@ -13,8 +13,7 @@
 #include "Scene/SceneFile.h"
 #include "Scene/World/Simulation.h"
 
-namespace physvib {
-namespace {
+namespace physvib::draw_test {
 
 using namespace test;
 
@@ -738,5 +737,4 @@ TEST(FirstStart, HeadphonesHaveTheFirstActuatorLeftAndTheSecondRight) {
     EXPECT_EQ(model.trouble(), "");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::draw_test

@@ -11,8 +11,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::events_tab_test {
 
 using namespace test;
 
@@ -275,5 +274,4 @@ TEST(RecentContacts, EachContactHasItsOwnEventsAsFarAsTheyAreKept) {
     EXPECT_EQ(eventsOf(1).size(), 1U) << "a hit never";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::events_tab_test

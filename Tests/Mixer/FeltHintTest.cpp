@@ -6,8 +6,7 @@
 #include "Scene/Drawing/BodyEdits.h"
 #include "Scene/Drawing/FeltTrial.h"
 
-namespace physvib {
-namespace {
+namespace physvib::felt_hint_test {
 
 using namespace test;
 
@@ -146,5 +145,4 @@ TEST(FeltHint, OutputsThatLetNothingBeFeltAreToldUnlessOneListens) {
     EXPECT_EQ(told(), "") << "it is heard";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::felt_hint_test

@@ -4,8 +4,7 @@
 #include "Mixer/Strips/LanesTab.h"
 #include "MixerTesting.h"
 
-namespace physvib {
-namespace {
+namespace physvib::lanes_by_hand_test {
 
 using namespace test;
 
@@ -354,5 +353,4 @@ TEST_F(LeftHand, ShowTheNameAndTheGainThatTheyHave) {
     EXPECT_EQ(fader->getValue(), 0.0) << "after it was undone, too";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::lanes_by_hand_test

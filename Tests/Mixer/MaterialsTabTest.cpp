@@ -10,8 +10,7 @@
 #include "Scene/SceneFile.h"
 #include "Support/WriteSound.h"
 
-namespace physvib {
-namespace {
+namespace physvib::materials_tab_test {
 
 using namespace test;
 
@@ -317,5 +316,4 @@ TEST_F(Materials, ASavedSessionHasThemAndRendersTheSameBytes) {
     EXPECT_TRUE(std::ranges::any_of(events, [](const CollisionEvent& e) { return e.frequencyHz == 205.0; }));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::materials_tab_test

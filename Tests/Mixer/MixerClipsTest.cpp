@@ -4,8 +4,7 @@
 #include "Live/Recordings/LoadRecordings.h"
 #include "MixerTesting.h"
 
-namespace physvib {
-namespace {
+namespace physvib::mixer_clips_test {
 
 using namespace test;
 
@@ -145,5 +144,4 @@ TEST_F(MixerClipsTest, WhereItWouldBeFeltIsShownWhileItIsDragged) {
     EXPECT_TRUE(shown(strip("Strip D"), {20.0f, 100.0f}, {1.0f, 100.0f}));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::mixer_clips_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::mixer_compare_test {
 
 using namespace test;
 
@@ -193,5 +192,4 @@ TEST(Doses, OfBeforeKeepTheFullScalesOfBefore) {
     EXPECT_DOUBLE_EQ(forgetful.squareGSeconds(), updated.squareGSeconds());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::mixer_compare_test

@@ -4,8 +4,7 @@
 #include "MixerTesting.h"
 #include "Scene/SceneFile.h"
 
-namespace physvib {
-namespace {
+namespace physvib::mixer_model_test {
 
 using namespace test;
 using Kind = RenderControl::Kind;
@@ -321,5 +320,4 @@ TEST(MixerModel, TwoHundredBodiesForAWhile) {
     EXPECT_EQ(view.createComponentSnapshot(view.getLocalBounds()).getWidth(), view.getWidth());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::mixer_model_test

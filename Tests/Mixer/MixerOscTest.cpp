@@ -6,8 +6,7 @@
 #include "MixerTesting.h"
 #include "Pads/VirtualPad.h"
 
-namespace physvib {
-namespace {
+namespace physvib::mixer_osc_test {
 
 using namespace test;
 
@@ -297,5 +296,4 @@ TEST(MixerPad, OneThatIsNotPluggedInSaysSoAndDelaysNothingUntilItComes) {
     ASSERT_TRUE(runUntil([&] { return window.model().device().choice().sinks.empty(); })) << "and is left";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::mixer_osc_test

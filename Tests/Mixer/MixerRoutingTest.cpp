@@ -8,8 +8,7 @@
 #include "MixerTesting.h"
 #include "Stimuli/SeededRandom.h"
 
-namespace physvib {
-namespace {
+namespace physvib::mixer_routing_test {
 
 using namespace test;
 
@@ -448,5 +447,4 @@ TEST(MixerRouting, AnOutputThatIsDisconnectedIsNeitherCountedNorShownAsThere) {
     EXPECT_EQ(shownOutput(view, model, "D"), "out 4 (not there)");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::mixer_routing_test

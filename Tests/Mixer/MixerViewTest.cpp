@@ -8,8 +8,7 @@
 #include <cmath>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::mixer_view_test {
 
 using namespace test;
 
@@ -561,5 +560,4 @@ TEST(MixerView, APresetIsKnownByItsPlaces) {
     EXPECT_EQ(preset.getSelectedItemIndex(), -1);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::mixer_view_test

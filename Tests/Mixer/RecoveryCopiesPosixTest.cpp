@@ -11,8 +11,7 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
-namespace physvib {
-namespace {
+namespace physvib::recovery_copies_posix_test {
 
 namespace fs = std::filesystem;
 
@@ -245,5 +244,4 @@ TEST_F(SettingsTest, AValueOfTagsIsNotReadAgainWhenItIsWritten) {
     EXPECT_EQ(files.settings().getValue("look"), "light");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::recovery_copies_posix_test

@@ -5,8 +5,7 @@
 #include "Scene/SceneFile.h"
 #include <algorithm>
 
-namespace physvib {
-namespace {
+namespace physvib::scene_play_test {
 
 using namespace test;
 
@@ -88,5 +87,4 @@ TEST(ScenePlay, ACarGoesAStepFasterWithEachKey) {
     EXPECT_EQ(played.last<MotorAction>().radiansPerSecond, 0.0);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::scene_play_test

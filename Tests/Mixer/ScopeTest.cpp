@@ -7,8 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::scope_test {
 
 using namespace test;
 
@@ -182,5 +181,4 @@ TEST(Telemetry, ADeviceThatHasGoneIsNoClock) {
     EXPECT_TRUE(valueOf(telemetryFacts(model, model.look(), 0.0f), "Clock").startsWith("none runs"));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::scope_test

@@ -10,8 +10,7 @@
 #include "Support/FullDisk.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::session_movie_test {
 
 using namespace test;
 
@@ -247,5 +246,4 @@ TEST(PageLink, AsAQrCodeItIsReadByOthers) {
     EXPECT_TRUE(qrPicture(std::string(4000, 'x')).isNull()) << "no code holds so much";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::session_movie_test

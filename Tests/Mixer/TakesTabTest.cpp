@@ -5,8 +5,7 @@
 #include "MixerTesting.h"
 #include "Scene/EventsCsv.h"
 
-namespace physvib {
-namespace {
+namespace physvib::takes_tab_test {
 
 using namespace test;
 
@@ -253,5 +252,4 @@ TEST(TakesTab, WhatIsSilentThroughoutIsNotTrimmed) {
     EXPECT_EQ(soundingPart({0.0f, 0.5f, 0.0f, 0.002f, 0.0005f}, 5.0), (juce::Range{1.0, 4.0}));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::takes_tab_test

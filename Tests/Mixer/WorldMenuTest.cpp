@@ -3,8 +3,7 @@
 #include "Mixer/World/DrawBar.h"
 #include "NewSceneRig.h"
 
-namespace physvib {
-namespace {
+namespace physvib::world_menu_test {
 
 using namespace test;
 
@@ -346,5 +345,4 @@ TEST_F(OnField, OfSixtyFourActuatorsEachShowsItsWholeLabel) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::world_menu_test

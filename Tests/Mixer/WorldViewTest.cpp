@@ -6,8 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::world_view_test {
 
 TEST(WorldView, ABodyIsSeenWhereItIsWhenThatIsFelt) {
     Scene scene;
@@ -267,5 +266,4 @@ TEST(Badges, AreGrippedWhereTheyAreDrawn) {
     EXPECT_EQ(world.badgeAt(4).getCentre(), world.placeOfEnchanter(4));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::world_view_test

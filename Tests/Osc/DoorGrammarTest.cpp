@@ -4,8 +4,7 @@
 #include "Osc/DoorGrammar.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::door_grammar_test {
 
 TEST(OscReceivers, KeepWhatTheyPromiseWhateverComes) {
     test::DoorGrammar grammar{1};
@@ -41,5 +40,4 @@ TEST(OscReceivers, AreTriedWithEveryKindOfMessage) {
     EXPECT_LT(bad, 1000);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::door_grammar_test

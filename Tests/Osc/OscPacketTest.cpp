@@ -11,8 +11,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::osc_packet_test {
 
 using namespace std::string_literals;
 
@@ -187,5 +186,4 @@ TEST(OscPage, HasTheFigures) {
     expectOnThePage("at most " + std::to_string(OscReplies::maxSenders) + " senders");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::osc_packet_test

@@ -13,8 +13,7 @@
 #include <random>
 #include <string>
 
-namespace physvib {
-namespace {
+namespace physvib::osc_port_test {
 
 using namespace test;
 
@@ -330,5 +329,4 @@ TEST(OscRepliesLimits, AddressesThatAreMadeUpGetLittleTogether) {
     EXPECT_TRUE(replies.mayReply(100)) << "a second later there is room again";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::osc_port_test

@@ -4,8 +4,7 @@
 #include "Session/FakeHost.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::osc_receiver_test {
 
 using namespace test;
 using namespace std::string_literals;
@@ -327,5 +326,4 @@ TEST(OscReceivers, SilencesOfAPacketAreCountedAsTheyAreRead) {
     EXPECT_EQ(silencesIn(both), 1U);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::osc_receiver_test

@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::phone_sensors_test {
 
 std::optional<GravityAction> pullOf(PhoneSensors& phone, const std::string& address,
                                     std::vector<OscValue> values) {
@@ -203,5 +202,4 @@ TEST(OscClocks, TheSystemsClockIsReadAgainTheSame) {
     EXPECT_LT(std::abs(unixAheadNs() - unixAheadNs()), 100'000'000);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::phone_sensors_test

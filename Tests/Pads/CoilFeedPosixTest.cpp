@@ -11,8 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-namespace physvib {
-namespace {
+namespace physvib::coil_feed_posix_test {
 
 constexpr std::int64_t ms = 1'000'000;
 
@@ -282,5 +281,4 @@ TEST_F(HidDeviceTest, IsFoundByItsNumbersTakenOnceAndGoneWithItsNode) {
     EXPECT_FALSE(std::filesystem::exists(folders.nodes / "hidraw2"));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::coil_feed_posix_test

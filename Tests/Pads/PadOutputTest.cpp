@@ -6,8 +6,7 @@
 #include <future>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::pad_output_test {
 
 using namespace pads_testing;
 
@@ -258,5 +257,4 @@ TEST_F(PadStopsInRealTime, ASessionThatBeginsAnewIsFelt) {
     output.follow(nullptr);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::pad_output_test

@@ -6,8 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::pad_trial_test {
 
 /// Two motors on a sensor of 250 reports a second, in a time of its own.
 class NumberPad final : public GamePad {
@@ -94,5 +93,4 @@ TEST(PadTrial, ATrialThatCannotBeMeasuredSaysWhyAndLeavesMotorsAtRest) {
     EXPECT_EQ(fitMotor(steps.value).error, "nothing moved: is the controller lying on something soft?");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::pad_trial_test

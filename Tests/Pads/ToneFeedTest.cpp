@@ -4,8 +4,7 @@
 #include "Live/Pads/ToneFeed.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::tone_feed_test {
 
 constexpr std::int64_t ms = 1'000'000;
 constexpr HidFeedKind kind{{}, "test"};
@@ -105,5 +104,4 @@ TEST(DualSense, ItsSoundDeviceIsKnownByItsName) {
     EXPECT_FALSE(dualsense::isDevice("JACK:system"));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::tone_feed_test

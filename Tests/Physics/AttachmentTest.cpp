@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace physvib {
-namespace {
+namespace physvib::attachment_test {
 
 /// Counts its calls and remembers who has been hit, as games do.
 class Game : public b2ContactListener, public b2DestructionListener {
@@ -408,5 +407,4 @@ TEST(Attachment, RefusesNonsense) {
     EXPECT_EQ(other.world.GetContactManager().m_contactListener, &other.game); // nothing half attached
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::attachment_test

@@ -8,8 +8,7 @@
 #include <cstdlib>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::broken_rules_test {
 
 TEST_F(AttachedWorld, AStaticBodyThatWentUnheardWeighsNothing) {
     b2Fixture& heavy = edge({-100.0F, -5.0F}, {100.0F, -5.0F});
@@ -187,5 +186,4 @@ TEST(BrokenRules, CostValuesAndNoMemory) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::broken_rules_test

@@ -3,8 +3,7 @@
 #include "Contacts/CollisionCatcher.h"
 #include "AttachedWorld.h"
 
-namespace physvib {
-namespace {
+namespace physvib::collision_catcher_test {
 
 using CollisionCatcherWorld = AttachedWorld;
 
@@ -185,5 +184,4 @@ TEST_F(CollisionCatcherWorld, GravityRaisesTheThresholdOverWhatRestingContactsGe
     EXPECT_FALSE(run(100).empty());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::collision_catcher_test

@@ -4,8 +4,7 @@
 #include "Contacts/ImpactTimings.h"
 #include <algorithm>
 
-namespace physvib {
-namespace {
+namespace physvib::collision_test {
 
 /// Gravity of 10 m/s^2 and a floor with a camera; nothing bounces, nothing sleeps.
 class Collisions : public AttachedWorld {
@@ -218,5 +217,4 @@ TEST_P(CollisionsBesideAMachine, SmallStrikeDoesNotHandOnItsHumming) {
 INSTANTIATE_TEST_SUITE_P(, CollisionsBesideAMachine,
                          testing::Values(ImpactTiming::onset, ImpactTiming::release));
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::collision_test

@@ -6,8 +6,7 @@
 #include <random>
 #include <utility>
 
-namespace physvib {
-namespace {
+namespace physvib::foreign_motion_test {
 
 /// Bodies of all kinds, joints, sensors, bullets, filters, and a player who makes, destroys, pushes.
 class RandomWorld {
@@ -200,5 +199,4 @@ TEST_P(RandomClusters, HandOnNoMoreThanWhatStruck) {
 }
 INSTANTIATE_TEST_SUITE_P(, RandomClusters, testing::Values(ImpactTiming::onset, ImpactTiming::release));
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::foreign_motion_test

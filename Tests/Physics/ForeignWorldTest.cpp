@@ -4,8 +4,7 @@
 #include <limits>
 #include <memory>
 
-namespace physvib {
-namespace {
+namespace physvib::foreign_world_test {
 
 class ForeignWorld : public AttachedWorld {
 protected:
@@ -220,5 +219,4 @@ TEST_F(ForeignWorld, FlushGivesEventsAtOnce) {
     EXPECT_EQ(events.size(), 1U);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::foreign_world_test

@@ -15,8 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::lasting_contacts_test {
 
 constexpr double g = 10.0;
 
@@ -377,5 +376,4 @@ TEST(TwoWaysOfGrains, MakeTheSameEvents) {
     EXPECT_GT(grains, 10'000U);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::lasting_contacts_test

@@ -4,8 +4,7 @@
 #include "Contacts/ImpactTimings.h"
 #include <algorithm>
 
-namespace physvib {
-namespace {
+namespace physvib::onset_impacts_test {
 
 /// A ball at 3 m/s strikes a row of four that touch, the last of which has the camera.
 class OnsetImpactsRow : public AttachedWorld, public testing::WithParamInterface<float> {
@@ -237,5 +236,4 @@ TEST_F(OnsetImpactsWorld, BulletsAreHandedOnToo) {
     EXPECT_NEAR(seconds(events.at(0)), (3.0 - 0.999) / 45.0, 0.01);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::onset_impacts_test

@@ -3,8 +3,7 @@
 #include "AttachedWorld.h"
 #include "Contacts/ImpactTimings.h"
 
-namespace physvib {
-namespace {
+namespace physvib::release_impacts_test {
 
 ImpactSettings settingsOf(ImpactTiming timing) {
     ImpactSettings settings = unity();
@@ -162,5 +161,4 @@ TEST_P(EitherTiming, RestingBallStrikesOnce) {
 }
 INSTANTIATE_TEST_SUITE_P(, EitherTiming, testing::Values(ImpactTiming::onset, ImpactTiming::release));
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::release_impacts_test

@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::settled_test {
 
 /// Takes events, and checks each against what was promised.
 template <class World>
@@ -252,5 +251,4 @@ TEST_P(DestroyedBodies, LeaveTheMotionAndTheHitsOfAllOthersAsTheyAre) {
 INSTANTIATE_TEST_SUITE_P(Timings, DestroyedBodies,
                          testing::Values(ImpactTiming::onset, ImpactTiming::release));
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::settled_test

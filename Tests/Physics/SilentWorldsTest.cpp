@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::silent_worlds_test {
 
 class SilentBoxes : public AttachedWorld {
 protected:
@@ -218,5 +217,4 @@ TEST(FirstWorlds, NeitherClipNorWhisperWhateverTheirMasses) {
     EXPECT_GT(pinball(0.1, 0.0), 2.0); // what they would do without it
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::silent_worlds_test

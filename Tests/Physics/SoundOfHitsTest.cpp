@@ -5,8 +5,7 @@
 #include "Contacts/EventMaker.h"
 #include <stdexcept>
 
-namespace physvib {
-namespace {
+namespace physvib::sound_of_hits_test {
 
 class SoundOfHits : public AttachedWorld {
 protected:
@@ -177,5 +176,4 @@ TEST_F(EventMakerWorld, CameraWithoutAnyMassIsSilent) {
     EXPECT_TRUE(run(20).empty());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::sound_of_hits_test

@@ -8,8 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace physvib {
-namespace {
+namespace physvib::turns_and_addresses_test {
 
 constexpr double spacing = 0.002;
 
@@ -246,5 +245,4 @@ INSTANTIATE_TEST_SUITE_P(Timings, Slots,
                          testing::Combine(testing::Values(ImpactTiming::onset, ImpactTiming::release),
                                           testing::Values(Voice::own, Voice::other, Voice::both)));
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::turns_and_addresses_test

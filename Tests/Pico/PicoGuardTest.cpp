@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::pico_guard_test {
 
 using Source = test::Stream<4>::Source;
 
@@ -97,5 +96,4 @@ TEST(PicoGuard, LeavesWhatIsFelt) {
     EXPECT_EQ(stream.player->limitedTiles(), 0u);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::pico_guard_test

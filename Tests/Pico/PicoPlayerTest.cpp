@@ -5,8 +5,7 @@
 #include "Streams.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::pico_player_test {
 
 using pico::tileFrames;
 using test::Stream;
@@ -302,5 +301,4 @@ TEST(PicoMissingPackets, AreCountedByTheNumbersOfTheBus) {
     EXPECT_EQ(missing.count(), 3u);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::pico_player_test

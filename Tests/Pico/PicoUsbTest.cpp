@@ -14,8 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::pico_usb_test {
 
 TEST(PicoDescriptors, HoldTogether) {
     for (const int channels : {4, 8}) {
@@ -327,5 +326,4 @@ TEST_P(PicoHostRules, TheMacFindsControlsAndName) {
     EXPECT_EQ(word(entity(inputTerminal), 9), 0) << "channels are no loudspeakers";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::pico_usb_test

@@ -8,8 +8,7 @@
 #include <png.h>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::render_picture_test {
 
 namespace palette = picture::palette;
 using picture::Area;
@@ -344,5 +343,4 @@ TEST(RenderPicture, ALoudWaveIsFilledFromItsTopToItsBottom) {
     EXPECT_GT(lane.count, 1300 * 15);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::render_picture_test

@@ -8,8 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::waveform_envelope_test {
 
 constexpr int columns = WaveformEnvelope::columns;
 
@@ -140,5 +139,4 @@ TEST(ChannelLabels, NamesOfTheirOwnComeFirst) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::waveform_envelope_test

@@ -3,8 +3,7 @@
 #include "PluginTesting.h"
 #include <array>
 
-namespace physvib {
-namespace {
+namespace physvib::automation_test {
 
 using namespace test;
 
@@ -367,5 +366,4 @@ TEST(Controls, AllSoundOffBehindMuchAutomationIsNotLost) {
     EXPECT_EQ(host.peakOfNext(4800), 0.0f);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::automation_test

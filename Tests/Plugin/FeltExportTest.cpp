@@ -8,8 +8,7 @@
 #include "PluginTesting.h"
 #include "Scene/EventsCsv.h"
 
-namespace physvib {
-namespace {
+namespace physvib::felt_export_test {
 
 using namespace test;
 
@@ -234,5 +233,4 @@ TEST(PresetFiles, APresetIsSavedListedAndPlayedElsewhereNoLouder) {
     folder.deleteRecursively();
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::felt_export_test

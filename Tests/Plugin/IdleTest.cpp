@@ -9,8 +9,7 @@
 #include <fstream>
 #include <unistd.h>
 
-namespace physvib {
-namespace {
+namespace physvib::idle_test {
 
 using namespace test;
 
@@ -248,5 +247,4 @@ TEST(PluginForHours, AMinuteLeavesNothingBehindThatGrows) {
     playHours(1.0 / 60, 8000, one, other, growth);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::idle_test

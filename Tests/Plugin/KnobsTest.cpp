@@ -4,8 +4,7 @@
 #include "PluginEditor.h"
 #include "PluginTesting.h"
 
-namespace physvib {
-namespace {
+namespace physvib::knobs_test {
 
 using namespace test;
 using Message = juce::MidiMessage;
@@ -192,5 +191,4 @@ TEST(Knobs, TheWindowShowsThoseThatThePresetUses) {
         EXPECT_TRUE(shows(*editor, name)) << name;
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::knobs_test

@@ -4,8 +4,7 @@
 #include "PluginTesting.h"
 #include <functional>
 
-namespace physvib {
-namespace {
+namespace physvib::latency_test {
 
 using namespace test;
 
@@ -189,5 +188,4 @@ TEST(DirectStrikes, AllSoundOffEndsWhatRingsAndWhatIsStruckBehindItIsFelt) {
                 50.0 * 480 + 300 + lookAheadFrames(), 2.0);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::latency_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace physvib {
-namespace {
+namespace physvib::loudness_test {
 
 using namespace test;
 
@@ -313,5 +312,4 @@ TEST(BusPlan, ManyBusesCarryMoreThanSixteenEnchanters) {
     for (int j = 0; j < 20; ++j) EXPECT_EQ(found[static_cast<std::size_t>(j)], j);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::loudness_test

@@ -2,8 +2,7 @@
 // MIDI: strikes at their frame, in the log, moved by bends; controllers; notes off.
 #include "PluginTesting.h"
 
-namespace physvib {
-namespace {
+namespace physvib::midi_test {
 
 using namespace test;
 using Message = juce::MidiMessage;
@@ -342,5 +341,4 @@ TEST(Midi, AProgramChangeChoosesThatPreset) {
     EXPECT_TRUE(host.plugin->can(PluginProcessor::Step::undo));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::midi_test

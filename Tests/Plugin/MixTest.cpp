@@ -7,8 +7,7 @@
 #include "Scene/World/Simulation.h"
 #include "TestPlaces.h"
 
-namespace physvib {
-namespace {
+namespace physvib::mix_test {
 
 using namespace test;
 
@@ -259,5 +258,4 @@ TEST(PluginProcessor, ASceneThatIsChangedWhileItPlaysFadesAndGoesOn) {
     EXPECT_EQ(host.plugin->takes().status().take, 6);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::mix_test

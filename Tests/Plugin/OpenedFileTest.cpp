@@ -7,8 +7,7 @@
 #include "PluginTesting.h"
 #include "Scene/SceneFile.h"
 
-namespace physvib {
-namespace {
+namespace physvib::opened_file_test {
 
 using namespace test;
 
@@ -149,5 +148,4 @@ TEST_F(PluginFiles, WhatIsWrongIsNamed) {
     EXPECT_NE(openFile(broken, state).error.find(broken + ": "), std::string::npos);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::opened_file_test

@@ -5,8 +5,7 @@
 #include "PluginTesting.h"
 #include <functional>
 
-namespace physvib {
-namespace {
+namespace physvib::paced_host_test {
 
 using namespace test;
 
@@ -266,5 +265,4 @@ TEST(PacedHost, NoCallStepsMoreThanItsOwnFramesAndTheLatencyOfAWorldThatIsFarToo
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::paced_host_test

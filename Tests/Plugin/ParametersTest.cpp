@@ -9,8 +9,7 @@
 #include <iterator>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::parameters_test {
 
 TEST(Parameters, IdsArePromises) { // a change here breaks every saved session of every host
     std::vector<std::string_view> ids;
@@ -133,5 +132,4 @@ TEST(Parameters, TheTableInTheDocsIsThisOne) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::parameters_test

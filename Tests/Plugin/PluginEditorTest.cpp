@@ -5,8 +5,7 @@
 #include "PluginTesting.h"
 #include "Scene/SceneFile.h"
 
-namespace physvib {
-namespace {
+namespace physvib::plugin_editor_test {
 
 using namespace test;
 
@@ -309,5 +308,4 @@ TEST(EditHistory, AAndBHaveStepsOfTheirOwn) {
     EXPECT_EQ(plugin.state().seed, 5u) << "where B began";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::plugin_editor_test

@@ -7,8 +7,7 @@
 #include <chrono>
 #include <future>
 
-namespace physvib {
-namespace {
+namespace physvib::plugin_state_test {
 
 using namespace test;
 
@@ -308,5 +307,4 @@ TEST(PluginChunk, TheHostIsToldOfALatencyThatChanges) {
     EXPECT_EQ(listener.latencies, 1);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::plugin_state_test

@@ -10,8 +10,7 @@
 #include <future>
 #include <numeric>
 
-namespace physvib {
-namespace {
+namespace physvib::takes_test {
 
 using namespace test;
 
@@ -284,5 +283,4 @@ TEST(Takes, ASessionWithoutMemoryForItsRendererIsNoSilentOne) {
     session.prepare(48000, 480);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::takes_test

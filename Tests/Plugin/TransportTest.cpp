@@ -2,8 +2,7 @@
 // What counts as a start and a stop, that takes of a loop are the same, and worlds in the tempo of a host.
 #include "PluginTesting.h"
 
-namespace physvib {
-namespace {
+namespace physvib::transport_test {
 
 using namespace test;
 using Change = Transport::Change;
@@ -260,5 +259,4 @@ TEST(Tempo, ATempoThatStaysMakesTheSameOfEveryBlockSize) {
     EXPECT_EQ(of(480), of(1920));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::transport_test

@@ -3,8 +3,7 @@
 // voice says, for as long as its key is held.
 #include "PluginTesting.h"
 
-namespace physvib {
-namespace {
+namespace physvib::voice_test {
 
 using namespace test;
 using Message = juce::MidiMessage;
@@ -280,5 +279,4 @@ TEST(Voice, EveryInstrumentIsSilentUntilANoteAndFeltThen) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::voice_test

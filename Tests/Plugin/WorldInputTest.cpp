@@ -4,8 +4,7 @@
 #include "Scene/SceneFile.h"
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::world_input_test {
 
 using namespace test;
 
@@ -113,5 +112,4 @@ TEST(WorldInput, RulesThatTheSceneDoesNotBearAreRefused) {
     EXPECT_TRUE(host.plugin->state().notes.empty());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::world_input_test

@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::realtime_module_test {
 
 using namespace test;
 
@@ -111,5 +110,4 @@ TEST(RealtimeModule, OfLv2TakesNoMemoryAndNoLock) {
     host.deactivate();
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::realtime_module_test

@@ -5,8 +5,7 @@
 #include "Realtime/RealtimeGuard.h"
 #include <atomic>
 
-namespace physvib {
-namespace {
+namespace physvib::realtime_plugin_test {
 
 using namespace test;
 
@@ -236,5 +235,4 @@ TEST(RealtimePlugin, AfterCallsInAnyOrderAnInstanceIsAsAFreshOneAndNoBlockTookMe
 
 TEST(RealtimePlugin, ManyBuses) { expectNothingForbidden({BusPlan::Kind::manyBuses}); }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::realtime_plugin_test

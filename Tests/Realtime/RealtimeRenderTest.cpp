@@ -10,8 +10,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::realtime_render_test {
 
 constexpr int outputs = 8;
 
@@ -132,5 +131,4 @@ TEST(RealtimeRender, AMillionBlocksUnderTenThousandEditsDoNothingForbidden) {
     EXPECT_GT(heard, 0.0f);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::realtime_render_test

@@ -9,8 +9,7 @@
 #include "TestPlaces.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::actuator_file_test {
 
 ActuatorProfile measured() {
     ActuatorProfile p;
@@ -248,5 +247,4 @@ TEST_F(MaterialTableOnDiskTest, LoadsWhatWasWritten) {
     EXPECT_TRUE(loadMaterials(folder / "m.json").value == builtInMaterials().front());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::actuator_file_test

@@ -14,7 +14,7 @@
 #include <vector>
 
 // How loud each of phone4's enchanters gets in a scene, for tests of whole scenes.
-namespace physvib {
+namespace physvib::box_study_test {
 
 /// What phone4 plays, by the linear law.
 inline auto onPhoneFour(const Scene& scene, const std::vector<CollisionEvent>& events, int seconds,
@@ -36,8 +36,6 @@ inline std::array<double, 4> phoneFourPeaks(const Scene& scene, const std::vecto
             peaks[j] = std::max(peaks[j], std::abs(double{sample}));
     return peaks;
 }
-
-namespace {
 
 constexpr int seconds = 60;
 constexpr std::array pairs{"rubber-concrete", "wood-wood", "steel-steel"};
@@ -355,5 +353,4 @@ TEST_P(TenMinutesOfScene, LoseNothingForGood) {
 
 INSTANTIATE_TEST_SUITE_P(SeedsAndRates, TenMinutesOfScene, testing::ValuesIn(sceneRuns(3, 0)), sceneRunName);
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::box_study_test

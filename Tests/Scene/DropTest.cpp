@@ -10,8 +10,7 @@
 #include <map>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::drop_test {
 
 constexpr double gravity = 9.8, fieldWidth = 8.0, plateTop = 0.3;
 constexpr double driveGain = 4.1; // of all pairs: that wood is felt more is the stimulus (Eq. 5.4)
@@ -174,5 +173,4 @@ INSTANTIATE_TEST_SUITE_P(Pairs, LivelyDrop,
                                          Fall{pairs[2], 1, 1, 100}),
                          nameOf);
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::drop_test

@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace physvib {
-namespace {
+namespace physvib::events_csv_test {
 
 using Events = std::vector<CollisionEvent>;
 const Provenance provenance{"0.1.0", {{"seed", "1"}, {"scene", "shake-the-box"}}};
@@ -392,5 +391,4 @@ TEST_F(EventsCsvFileTest, AFileIsReadAsItsText) {
               (folder / "none.csv").string() + ": cannot be read: No such file or directory");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::events_csv_test

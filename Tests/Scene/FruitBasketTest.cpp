@@ -14,8 +14,7 @@
 #include <set>
 #include <tuple>
 
-namespace physvib {
-namespace {
+namespace physvib::fruit_basket_test {
 
 constexpr double floorTop = 0.9, basketAt = 4.0;
 constexpr double dropMetres = 2.0;
@@ -327,5 +326,4 @@ TEST(Driving, TheCarGoesFromWallToWallAndStaysOnItsWheels) {
     EXPECT_GE(crossings, 40); // in ten minutes; obstacles are often in the way
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::fruit_basket_test

@@ -12,8 +12,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::hand_script_test {
 
 constexpr int stepsPerSecond = 100;
 
@@ -298,5 +297,4 @@ TEST(SceneGrips, ScrapingIsFeltAndATextureMakesASurfaceRough) {
     EXPECT_EQ(slides(), 0) << "smooth again";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::hand_script_test

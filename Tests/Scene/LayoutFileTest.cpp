@@ -7,8 +7,7 @@
 #include <algorithm>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::layout_file_test {
 
 std::string layoutWith(const std::string& enchanters) {
     return R"({"name": "mine", "extent_m": [0.12, 0.06], "enchanters": [)" + enchanters + "]}";
@@ -326,5 +325,4 @@ TEST_F(LayoutFileOnDiskTest, LoadsWhatWasWrittenAndNamesTheFileInErrors) {
               (folder / "big.json").string() + ": expected at most 1000000 bytes, found more");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::layout_file_test

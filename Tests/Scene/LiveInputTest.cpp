@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <random>
 
-namespace physvib {
-namespace {
+namespace physvib::live_input_test {
 
 BodyDescription stone(const std::string& name, Vector at = {1.0, 1.0}) {
     return {name, BodyType::dynamicBody, {{CircleShape{0.1}, {}, 0.0, 1, true}}, at};
@@ -214,5 +213,4 @@ TEST(InputCheck, ABodyThatWasSpawnedCanBeSwitchedAndChanged) {
               "");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::live_input_test

@@ -14,8 +14,7 @@
 #include <random>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::scene_drawing_test {
 
 Scene blank() { return newScene(*findBuiltInScene("drop"), SceneGround::floor); }
 
@@ -366,5 +365,4 @@ TEST(InputCheck, DrawingGoesOnForMonths) {
     EXPECT_NE(check.take(ChangeAction{ball, false}), "expected at most 100000 inputs");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::scene_drawing_test

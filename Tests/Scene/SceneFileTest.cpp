@@ -8,8 +8,7 @@
 #include "TestPlaces.h"
 #include <algorithm>
 
-namespace physvib {
-namespace {
+namespace physvib::scene_file_test {
 
 /// One of everything that the format has.
 const std::string full = R"({
@@ -456,5 +455,4 @@ TEST(SceneCatalogue, EmbeddedFilesAreTheFiles) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::scene_file_test

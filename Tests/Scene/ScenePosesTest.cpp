@@ -6,8 +6,7 @@
 #include <gtest/gtest.h>
 #include <memory>
 
-namespace physvib {
-namespace {
+namespace physvib::scene_poses_test {
 
 constexpr std::int64_t everyNs = 50'000'000;
 
@@ -125,5 +124,4 @@ TEST(ScenePoses, JointsAreWhereTheirBodiesAreAsLongAsTheyHold) {
     EXPECT_EQ(there(0.9).joints.size(), 0u);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::scene_poses_test

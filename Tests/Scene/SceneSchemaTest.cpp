@@ -16,8 +16,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::scene_schema_test {
 
 using Json = nlohmann::json;
 
@@ -312,5 +311,4 @@ TEST(EveryField, OfASceneCountsForItselfAlone) {
         EXPECT_TRUE(isCounted || pointer == "/physvib_scene") << pointer << ": its change changes nothing";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::scene_schema_test

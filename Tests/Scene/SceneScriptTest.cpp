@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <utility>
 
-namespace physvib {
-namespace {
+namespace physvib::scene_script_test {
 
 ScriptInput tilt(double seconds, double angle, int times = 1, double every = 0.0) {
     return {seconds, times, every, TiltAction{angle}};
@@ -128,5 +127,4 @@ TEST(StepClock, DoesNotOverflowInLongRuns) {
     EXPECT_EQ(StepClock{10'000}.timeNs(10'000'000'001LL), 1'000'000'000'100'000);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::scene_script_test

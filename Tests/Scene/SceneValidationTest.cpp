@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace physvib {
-namespace {
+namespace physvib::scene_validation_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -220,5 +219,4 @@ TEST(SceneWarnings, TellMovingBodiesOutsideBox2dsRange) {
     EXPECT_EQ(warnings[1].substr(0, 51), "bodies[3].fixtures[0]: expected 0.1 to 10, found 13");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::scene_validation_test

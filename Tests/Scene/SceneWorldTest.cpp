@@ -7,8 +7,7 @@
 #include "Scene/World/SceneCast.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::scene_world_test {
 
 /// Of one material of 100 kg/m^2 without friction or bounce.
 Scene sceneOf(double gravity, std::vector<BodyDescription> bodies = {}) {
@@ -422,5 +421,4 @@ TEST(SceneWorld, BodiesInOnePlaceHaveNoMoreContactsThanAStepCanBear) {
     EXPECT_GE(world.inner.contactsRefused(), 4285u);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::scene_world_test

@@ -4,8 +4,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::shape_geometry_test {
 
 /// 3 x 2 m, its lower left corner at (10, 20).
 const PolygonShape rectangle{{{10.0, 20.0}, {13.0, 20.0}, {13.0, 22.0}, {10.0, 22.0}}};
@@ -54,5 +53,4 @@ TEST(ShapeGeometry, InsetDeeperThanTheOutlineIsEmpty) {
     EXPECT_TRUE(inset(rectangle.verticesMetres, 1.1).empty());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::shape_geometry_test

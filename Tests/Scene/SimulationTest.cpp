@@ -9,8 +9,7 @@
 #include <stdexcept>
 #include <tuple>
 
-namespace physvib {
-namespace {
+namespace physvib::simulation_test {
 
 TEST(Simulation, AHitIsFeltOnThePartOfItsFixture) {
     Scene scene = dropScene(1.0);
@@ -190,5 +189,4 @@ TEST(SceneCounts, AreThoseOfItsEventsAndItsContacts) {
     EXPECT_LE(made.counts.thresholdMetresPerSecond, 1.5 * 0.01 * 25.0);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::simulation_test

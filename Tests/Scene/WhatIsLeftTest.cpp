@@ -14,8 +14,7 @@
 #include <random>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::what_is_left_test {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -219,5 +218,4 @@ TEST(NewLayouts, KeepTheActuatorsAndTheirFullScales) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::what_is_left_test

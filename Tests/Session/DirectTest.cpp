@@ -7,8 +7,7 @@
 #include "Live/Session/SessionRender.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::direct_test {
 
 using namespace test;
 
@@ -196,5 +195,4 @@ TEST(Direct, ASilenceOfABornSessionLetsWhatIsStruckBehindItBeFelt) {
     EXPECT_EQ(host.onsetFrom(6400 + 50 * 64), 6400 + 50 * 64 + 20 + limiterFrames() + 1);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::direct_test

@@ -8,8 +8,7 @@
 #include "Support/FailingDisk.h"
 #include <optional>
 
-namespace physvib {
-namespace {
+namespace physvib::failing_disk_posix_test {
 
 using namespace test;
 
@@ -133,5 +132,4 @@ TEST_F(FailingDisks, AListOfEventsThatCameInAnyOrderIsReadAgainWhole) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::failing_disk_posix_test

@@ -18,8 +18,7 @@
 #include <numbers>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::messages_test {
 
 using namespace test;
 
@@ -630,5 +629,4 @@ TEST(Messages, QueriesAnswer) {
                                    setup.scene.fieldHeightMetres, 0, 0, setup.scene.fieldWidthMetres, 0}));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::messages_test

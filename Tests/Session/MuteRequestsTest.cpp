@@ -8,8 +8,7 @@
 #include <string>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::mute_requests_test {
 
 using enum MuteRequester;
 
@@ -129,5 +128,4 @@ TEST(ComplaintLimits, ACauseIsWhatIsExpected) {
               cause("strike: seconds: expected 0 to 3600, found -1"));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::mute_requests_test

@@ -10,8 +10,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::offline_render_test {
 
 OfflineSettings settings(std::int64_t frames, int block, bool limiter, double fieldWidth = 1,
                          double fieldHeight = 1) {
@@ -138,5 +137,4 @@ TEST(ContactAudio, ARenderIsWhatIsPlayedAtItsLevelWithFieldsAndStops) {
     EXPECT_LT(last, 1e-6f) << "stopped";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::offline_render_test

@@ -10,8 +10,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::onset_marks_test {
 
 using namespace test;
 
@@ -221,5 +220,4 @@ TEST(Onsets, WithoutAPlayOutDelayTheyWouldNot) {
     EXPECT_GT(worstLateness(-0.02, onsets), 0.02); // as if L did not cover gap and steps
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::onset_marks_test

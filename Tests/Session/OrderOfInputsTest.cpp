@@ -14,8 +14,7 @@
 #include <set>
 #include <string>
 
-namespace physvib {
-namespace {
+namespace physvib::order_of_inputs_test {
 
 using namespace test;
 using Kind = RenderControl::Kind;
@@ -303,5 +302,4 @@ TEST(MessagesPage, ItsLinesAreTaken) {
     EXPECT_GE(lines, 8);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::order_of_inputs_test

@@ -9,8 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::session_clock_test {
 
 constexpr double ms = 1e6;
 
@@ -129,5 +128,4 @@ TEST(Patience, AnotherThreadsWorkIsNotCounted) {
     EXPECT_TRUE(patience(0));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::session_clock_test

@@ -11,8 +11,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-namespace physvib {
-namespace {
+namespace physvib::session_desk_test {
 
 using namespace test;
 constexpr int rate = hostRate, room = 8; // more channels than enchanters, as the mixer has
@@ -347,5 +346,4 @@ TEST(SessionDesk, BodiesThatCameAndWentAreInTheSceneAsItWasLeft) {
     }()});
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::session_desk_test

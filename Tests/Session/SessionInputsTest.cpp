@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::session_inputs_test {
 
 using namespace test;
 constexpr int rate = hostRate, block = 480;
@@ -355,5 +354,4 @@ TEST(SessionStart, AGrownLatencyIsGivenBackAndNoSampleIsLost) {
     EXPECT_TRUE(play(true) == play(false)) << "on the actuators, as audio of contacts and as marks";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::session_inputs_test

@@ -12,8 +12,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
-namespace physvib {
-namespace {
+namespace physvib::session_journal_test {
 
 using namespace test;
 
@@ -186,5 +185,4 @@ TEST_F(SessionJournals, TouchNeitherFileIfOneCannotBe) {
     refuses("monday.json"); // and does not wait for a reader
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::session_journal_test

@@ -11,8 +11,7 @@
 #include <gtest/gtest.h>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::session_log_test {
 
 using namespace test;
 constexpr int rate = hostRate, channels = hostChannels;
@@ -324,5 +323,4 @@ TEST(Session, ARefusedInputSaysWhyAndIsNotLogged) {
     EXPECT_TRUE(log.takes[0].inputs.empty());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::session_log_test

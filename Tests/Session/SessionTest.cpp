@@ -8,8 +8,7 @@
 #include <future>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::session_test {
 
 using namespace test;
 constexpr int rate = hostRate, channels = hostChannels;
@@ -426,5 +425,4 @@ TEST(Session, AStepThatTakesLongIsNotWaitedForByWhoeverDrawsTheWorld) {
     EXPECT_EQ(session.world().readPoses(poses), 30'000'000) << "between steps they are those of now";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::session_test

@@ -8,8 +8,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::ten_hours_test {
 
 using namespace test;
 
@@ -82,5 +81,4 @@ TEST(SessionMemory, APreparedSessionTakesTwoMegabytes) {
     EXPECT_GT(prepared, 500'000U) << "it is counted";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::ten_hours_test

@@ -12,13 +12,21 @@ inline SessionSetup setupOfWalls() {
     s.scene.normalisation = {0.02, 1.0};
     s.scene.materials = {{"felt", 10.0, 0.0, 0.0, 200.0, 60.0}};
     const auto wall = [&](const char* name, double x) {
-        const FixtureDescription box{BoxShape{1.0, 2.0}, {}, 0.0, 0, true};
-        s.scene.bodies.push_back({name, BodyType::staticBody, {box}, {x, 2.0}});
-        s.scene.bodies.back().massKg = 10.0;
+        BodyDescription body;
+        body.name = name;
+        body.type = BodyType::staticBody;
+        body.fixtures = {{BoxShape{1.0, 2.0}, {}, 0.0, 0, true}};
+        body.positionMetres = {x, 2.0};
+        body.massKg = 10.0;
+        s.scene.bodies.push_back(body);
     };
     wall("left", 1.298);
     wall("right", 2.702);
-    s.scene.bodies.push_back({"ball", BodyType::dynamicBody, {{CircleShape{0.2}, {}, 0.0, 0}}, {2.0, 2.0}});
+    BodyDescription ball;
+    ball.name = "ball";
+    ball.fixtures = {{CircleShape{0.2}, {}, 0.0, 0}};
+    ball.positionMetres = {2.0, 2.0};
+    s.scene.bodies.push_back(ball);
     s.seed = 0;
     s.stepsPerSecond = 1000;
     s.longestGapSeconds = driverThreadGapSeconds;

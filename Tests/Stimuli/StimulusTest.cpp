@@ -11,8 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::stimulus_test {
 
 test::Channels render(const Stimulus& stimulus, int rate, double extraSeconds = 0.05) {
     const int frames = static_cast<int>(std::lround((stimulus.seconds + extraSeconds) * rate));
@@ -194,5 +193,4 @@ TEST(PulsePattern, LabelsOfAllDurationsAndLettersAreReadBack) {
     EXPECT_EQ(wide->enchanters, (std::array<int, 3>{24, 25, 0}));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::stimulus_test

@@ -9,8 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 
-namespace physvib {
-namespace {
+namespace physvib::device_faults_test {
 
 constexpr double levelG = 0.2, seconds = 0.05;
 
@@ -271,5 +270,4 @@ TEST_F(DeviceFaults, NothingBeginsWithoutAnOutputForEachActuator) {
     EXPECT_FALSE(folder.getChildFile("short-P01.csv").exists());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::device_faults_test

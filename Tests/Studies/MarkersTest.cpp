@@ -3,8 +3,7 @@
 #include "Participant.h"
 #include <cstdlib>
 
-namespace physvib {
-namespace {
+namespace physvib::markers_test {
 
 class StudyMarkersTest : public test::StudyTest {
 protected:
@@ -50,5 +49,4 @@ TEST_F(StudyMarkersTest, AreNotNeeded) {
     EXPECT_FALSE(folder.getChildFile("lsl.txt").existsAsFile());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::markers_test

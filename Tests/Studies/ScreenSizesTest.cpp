@@ -10,8 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace physvib {
-namespace {
+namespace physvib::screen_sizes_test {
 
 constexpr int titleBar = 37; // pixels of a desktop's usual one
 constexpr std::pair<int, int> displays[] = {{1280, 720}, {1440, 900}};
@@ -250,5 +249,4 @@ TEST_F(AParticipantElsewhere, KoreanScreensShowLettersAndNoBoxes) {
     EXPECT_TRUE(missed.empty()) << *missed.begin();
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::screen_sizes_test

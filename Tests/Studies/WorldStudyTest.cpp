@@ -11,8 +11,7 @@
 #include <sstream>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::world_study_test {
 
 /// A device that plays in real time, and keeps the first channel of what it plays.
 class Hands {
@@ -348,5 +347,4 @@ TEST_F(AWorldInAStudy, MaterialsMayHaveAPictureOfTheParticipantsOwn) {
     EXPECT_GT(reds, 100) << "what is of wood is shown by the picture";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::world_study_test

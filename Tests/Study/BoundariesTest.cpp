@@ -16,8 +16,7 @@
 #include <numbers>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::boundaries_test {
 
 /// Miller's correction: degrees of freedom over 2 n ln 2, of the cells that occurred.
 TEST(Boundaries, TheBiasOfInformationTransferIsMillersForEveryMatrix) {
@@ -163,5 +162,4 @@ TEST_F(ExposureOfADay, IsTodaysOnlyIfItWasWrittenToday) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::boundaries_test

@@ -11,8 +11,7 @@
 #include <numbers>
 #include <string>
 
-namespace physvib {
-namespace {
+namespace physvib::coupling_test {
 
 struct Centroid {
     double x = 0.0, y = 0.0;
@@ -247,5 +246,4 @@ TEST_F(CouplingFileOnDiskTest, LoadsWhatWasWrittenAndSaysWhatIsNotThere) {
     EXPECT_TRUE(has(loadCoupling((folder / "none.json").string()).error, "cannot be read"));
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::coupling_test

@@ -8,8 +8,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-namespace physvib {
-namespace {
+namespace physvib::experiment_test {
 
 Protocol protocolOf(StimulusSet stimuli, std::vector<SessionPlan> sessions) {
     Protocol p;
@@ -299,5 +298,4 @@ TEST(Staircase, TwoDownOneUpFindsTheLevelOf71PercentCorrect) {
     EXPECT_EQ(stairs.reversals().size(), 60u);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::experiment_test

@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace physvib {
-namespace {
+namespace physvib::information_transfer_test {
 
 std::vector<IdentificationTrial> identity(int stimuli, int each) {
     std::vector<IdentificationTrial> trials;
@@ -291,5 +290,4 @@ TEST(PercentCounts, MergingFindsWhatBruteForceFinds) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::information_transfer_test

@@ -8,8 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::observer_test {
 
 TEST(PlaceBlur, FittedToExactSharesPredictsTheSharesWithTolerance) {
     for (const char* configuration : {"PHONE", "RING"}) {
@@ -139,5 +138,4 @@ TEST(Observer, FeelsAConditionWithTheBlurThatItsProtocolSays) {
     EXPECT_NEAR(shares[2], blurredGrid(5, 0.3).shareExact, 0.05);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::observer_test

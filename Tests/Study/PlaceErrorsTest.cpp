@@ -10,8 +10,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::place_errors_test {
 
 TEST(PlaceErrors, OfOneTargetAreMeanSpreadAndDistance) {
     const auto errors =
@@ -207,5 +206,4 @@ TEST(ResponseMap, WhatAllowsNoNormalIsNamed) {
     EXPECT_TRUE(resolveCondition("none", {}).counts.percent.empty());
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::place_errors_test

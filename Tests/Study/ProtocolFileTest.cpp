@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-namespace physvib {
-namespace {
+namespace physvib::protocol_file_test {
 
 const std::string head = R"({ "physvib_protocol": 1, "name": "p", )";
 const std::string oneGrid =
@@ -212,5 +211,4 @@ TEST(Words, EachLanguageHasAllThatBuiltInProtocolsAsk) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::protocol_file_test

@@ -14,8 +14,7 @@
 #include <numbers>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::protocol_language_test {
 
 /// Two alternatives of one call, of which "higher" is moved.
 std::string frequencies(const std::string& more = {}) {
@@ -517,5 +516,4 @@ TEST(StudyTimes, SecondsAreThoseOfTheCalendar) {
         EXPECT_TRUE(std::isnan(secondsOf(wrong))) << wrong;
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::protocol_language_test

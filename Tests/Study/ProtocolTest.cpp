@@ -14,8 +14,7 @@
 #include <map>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::protocol_test {
 
 Protocol gridProtocol() {
     Protocol p;
@@ -355,5 +354,4 @@ TEST(StudyTasks, EachHasALineInTheTableOfProtocols) {
         EXPECT_TRUE(has(studies.value, "\n| `" + std::string{task.name} + "` | ")) << task.name;
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::protocol_test

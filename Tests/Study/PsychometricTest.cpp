@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <utility>
 
-namespace physvib {
-namespace {
+namespace physvib::psychometric_test {
 
 constexpr PsychometricShape shapes[] = {PsychometricShape::logistic, PsychometricShape::normal,
                                         PsychometricShape::weibull};
@@ -128,5 +127,4 @@ TEST(PowerLaw, ExponentAndFactorComeBack) {
     EXPECT_EQ(fitPowerLaw(trials).fault, "expected levels and magnitudes > 0");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::psychometric_test

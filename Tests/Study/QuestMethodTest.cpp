@@ -7,8 +7,7 @@
 #include <gtest/gtest.h>
 #include <iterator>
 
-namespace physvib {
-namespace {
+namespace physvib::quest_method_test {
 
 Protocol withSession(SessionPlan session) {
     session.name = "main";
@@ -252,5 +251,4 @@ TEST(QuestMethod, WhatMakesNoSenseIsRefusedByItsField) {
               "sessions[0].quest: expected it of the task choose only");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::quest_method_test

@@ -6,8 +6,7 @@
 #include "Support/Studies.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::study_csv_test {
 
 TEST(StudyCsv, TrialsByCondition) {
     const auto data =
@@ -305,5 +304,4 @@ TEST(ColumnNames, WordsThatNameNothingAreRefused) {
     EXPECT_EQ(parseColumnNames(std::vector<std::string>{"a=b:0:1"}).value.front().theirs, "b");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::study_csv_test

@@ -10,8 +10,7 @@
 #include "Support/FailingDisk.h"
 #include <sys/stat.h>
 
-namespace physvib {
-namespace {
+namespace physvib::sync_posix_test {
 
 namespace fs = std::filesystem;
 
@@ -142,5 +141,4 @@ TEST_F(FailingStudies, AreToldAtTheEndOfASimulatedOne) {
     EXPECT_NE(study.error(), "");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::sync_posix_test

@@ -11,8 +11,7 @@
 #include <gtest/gtest.h>
 #include <sstream>
 
-namespace physvib {
-namespace {
+namespace physvib::trial_log_test {
 
 const Participant participant{"P01", 1, "simulated"};
 
@@ -311,5 +310,4 @@ TEST(TrialLog, RowsByQuestSayWhatTheirThresholdIsMadeOf) {
               "t.csv:32: column quest: expected the words of a QUEST+ session, found \"weibull\"");
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::trial_log_test

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::votes_test {
 
 TEST(Ratings, OnePersonAmongSeveralHasNoInterval) {
     std::vector<RatingTrial> trials{{"A", "x", {10.0}}, {"A", "x", {90.0}}, {"B", "y", {50.0}}};
@@ -172,5 +171,4 @@ TEST(TactileIcons, TheMostConfusedAreDroppedFirst) {
     EXPECT_NEAR(bitsFor(8), 3.0, 1e-12);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::votes_test

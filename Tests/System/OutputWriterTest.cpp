@@ -15,8 +15,7 @@
 #include <system_error>
 #include <thread>
 
-namespace physvib {
-namespace {
+namespace physvib::output_writer_test {
 
 /// Reads as much as it is told to, of each stream.
 class Reader {
@@ -182,5 +181,4 @@ TEST(ToldOnce, LinesThatNobodyReadAreCountedOnce) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::output_writer_test

@@ -5,8 +5,7 @@
 #include <string>
 #include <utility>
 
-namespace physvib {
-namespace {
+namespace physvib::udp_socket_test {
 
 constexpr int soon = 10'000, atOnce = 20;
 const std::string here = "127.0.0.1";
@@ -56,5 +55,4 @@ TEST(UdpSockets, WhatCannotBeIsToldInALine) {
     EXPECT_FALSE(UdpSocket{}.wait(1)) << "where none is open, nothing comes";
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::udp_socket_test

@@ -15,8 +15,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::thesis_hits_test {
 
 constexpr int rateHz = 48000;
 
@@ -263,5 +262,4 @@ TEST(Thesis, RehearsalsAreMarkedAsSimulated) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::thesis_hits_test

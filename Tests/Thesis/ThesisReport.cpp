@@ -9,7 +9,6 @@
 #include "Lab/Study/Identification.h"
 #include "Lab/Study/Places.h"
 #include "Support/Studies.h"
-#include "Thesis/PlaceBlur.h"
 #include "Thesis/Printed.h"
 #include <algorithm>
 #include <cmath>

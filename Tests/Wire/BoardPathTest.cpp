@@ -6,8 +6,7 @@
 #include "Support/Rendering.h"
 #include <gtest/gtest.h>
 
-namespace physvib {
-namespace {
+namespace physvib::board_path_test {
 
 constexpr int deskRate = 48000, perBoardFrame = deskRate / limits::board::sampleRateHz;
 
@@ -206,5 +205,4 @@ TEST(BoardPath, WhatIsSkippedGoesOnWhereItWouldBe) {
     EXPECT_NEAR(std::remainder(turns - segment->phase16 / 65536.0, 1.0), 0.0, 1e-5);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::board_path_test

@@ -8,8 +8,7 @@
 #include <memory>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::board_strike_test {
 
 BoardStrike strike(std::int64_t onsetNs, int peak) {
     BoardStrike s;
@@ -187,5 +186,4 @@ TEST(BoardSteps, OnTheBoardItIsEquallyStrongAllTheWay) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::board_strike_test

@@ -7,8 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::link_clock_test {
 
 struct Line {
     double drift = 300e-6, bootSeconds = 3.7, shortest = 0.010, longest = 0.030;
@@ -202,5 +201,4 @@ TEST(StrikeOrder, LostStrikesAreCountedAndNothingWaitsForThem) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::link_clock_test

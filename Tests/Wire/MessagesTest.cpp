@@ -7,8 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace physvib {
-namespace {
+namespace physvib::messages_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -186,5 +185,4 @@ TEST(FrameDecoder, ALineWithoutAZeroIsOneBadFrame) {
     EXPECT_EQ(ping.id, 9);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::messages_test

@@ -8,8 +8,7 @@
 #include <optional>
 #include <unistd.h>
 
-namespace physvib {
-namespace {
+namespace physvib::input_listener_test {
 
 /// A minute at most; sanitizers are slow.
 bool comesTrue(const std::function<bool()>& isTrue) {
@@ -163,5 +162,4 @@ TEST(InputListeners, ADoorSetsNoCeilingAboveThatOfTheMachine) {
     EXPECT_EQ(one.session.rendered().ceiling(0), 0.1f);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::input_listener_test

@@ -8,8 +8,7 @@
 #include <fstream>
 #include <limits>
 
-namespace physvib {
-namespace {
+namespace physvib::stop_walk_test {
 
 using namespace test;
 
@@ -72,5 +71,4 @@ TEST(StopWalk, EveryStateOfTheMixerIsSilencedByEscAndByAPress) {
     window.reset();
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::stop_walk_test

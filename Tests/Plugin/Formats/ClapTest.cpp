@@ -6,8 +6,7 @@
 #include <cstring>
 #include <dlfcn.h>
 
-namespace physvib {
-namespace {
+namespace physvib::clap_test {
 
 using namespace test;
 
@@ -263,5 +262,4 @@ TEST(Clap, ExpressionMovesOneNoteAndOddBlocksAreHeard) {
     EXPECT_EQ(peakOf(host.play(20)), 0.0f);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::clap_test

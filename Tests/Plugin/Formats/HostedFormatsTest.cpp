@@ -3,8 +3,7 @@
 #include "Plugin/Formats/Player.h"
 #include <functional>
 
-namespace physvib {
-namespace {
+namespace physvib::hosted_formats_test {
 
 using namespace test;
 
@@ -110,5 +109,4 @@ TEST(HostedFormats, TheHostIsToldOfTheTimingHoweverOftenItIsSwitchedWhileItPlays
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::hosted_formats_test

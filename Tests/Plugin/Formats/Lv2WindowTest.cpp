@@ -9,8 +9,7 @@
 // X11's macros come last
 #include "Plugin/Formats/DisplayNames.h"
 
-namespace physvib {
-namespace {
+namespace physvib::lv2_window_test {
 
 using namespace test;
 
@@ -87,5 +86,4 @@ TEST(Lv2Window, WritesThePortOfAParameterThatSomethingElseMoved) {
     XCloseDisplay(display);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::lv2_window_test

@@ -5,8 +5,7 @@
 #include "Plugin/Formats/RawVst3.h"
 #include "Plugin/PluginTesting.h"
 
-namespace physvib {
-namespace {
+namespace physvib::modules_together_test {
 
 using namespace test;
 
@@ -114,5 +113,4 @@ TEST(ModulesTogether, SeeNothingOfEachOther) {
     dlclose(lv2);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::modules_together_test

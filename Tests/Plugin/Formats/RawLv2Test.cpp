@@ -16,8 +16,7 @@
 #include <thread>
 #include <tuple>
 
-namespace physvib {
-namespace {
+namespace physvib::raw_lv2_test {
 
 using namespace test;
 
@@ -431,5 +430,4 @@ TEST(RawLv2, DescriptionsHaveFloatsAndNoEmptyAddresses) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::raw_lv2_test

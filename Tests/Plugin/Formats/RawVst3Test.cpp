@@ -8,8 +8,7 @@
 #include <cmath>
 #include <set>
 
-namespace physvib {
-namespace {
+namespace physvib::raw_vst3_test {
 
 using namespace test;
 namespace arr = Steinberg::Vst::SpeakerArr;
@@ -544,5 +543,4 @@ TEST(RawVst3, ExpressionOfANoteIsHeardAndUnsortedEventsAreSorted) {
     host.stop();
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::raw_vst3_test

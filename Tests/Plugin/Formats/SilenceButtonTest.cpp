@@ -8,8 +8,7 @@
 // X11's macros come last
 #include "Plugin/Formats/DisplayNames.h"
 
-namespace physvib {
-namespace {
+namespace physvib::silence_button_test {
 
 using namespace test;
 
@@ -119,5 +118,4 @@ TEST(SilenceButton, WindowsThatAreOpenedAgainAndAgainKeepNoThreadAndNoDescriptor
     XCloseDisplay(display);
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::silence_button_test

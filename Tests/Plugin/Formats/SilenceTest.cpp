@@ -3,8 +3,7 @@
 // until nothing moves, and it stays so. In the wrappers themselves: what they do to a bypass is not ours.
 #include "Plugin/Formats/Player.h"
 
-namespace physvib {
-namespace {
+namespace physvib::silence_test {
 
 using namespace test;
 
@@ -70,5 +69,4 @@ TEST(Silence, OfTheHostAndOursAreOneAndTheLastChangeCounts) {
     }
 }
 
-} // namespace
-} // namespace physvib
+} // namespace physvib::silence_test
