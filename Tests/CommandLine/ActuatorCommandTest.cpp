@@ -110,8 +110,9 @@ TEST_F(ActuatorCommand, ScalesTheFileToTheVoltageOfTheActuator) {
     const std::string with = std::string{render} + "--actuator haptuator-2 --equalise off ";
     const auto peakOf = [&](const std::string& options) {
         runs(with + options);
+        const auto channels = channelsOf("a.wav");
         float most = 0.0f;
-        for (const float sample : channelsOf("a.wav").at(0)) most = std::max(most, std::abs(sample));
+        for (const float sample : channels.at(0)) most = std::max(most, std::abs(sample));
         return most;
     };
     EXPECT_NEAR(peakOf("--interface-volts 6") / peakOf(""), 0.5f, 1e-6f); // the input range is 3 V

@@ -60,7 +60,7 @@ TEST_F(Drawing, BallsBoxesAndWallsAreDrawnAndUndone) {
         << "in the session that is saved";
 }
 
-TEST(Drawing, TheFirstBallInAnySceneIsFelt) {
+TEST(DrawingAgain, TheFirstBallInAnySceneIsFelt) {
     for (const char* scene : {"shake-the-box", "drop", "marbles"}) {
         Board board;
         setScene(board.model, *findBuiltInScene(scene));
@@ -111,7 +111,7 @@ TEST_F(Drawing, TheBodiesOfARainHaveNumberedNamesWhateverIsLeftOfAnother) {
     EXPECT_EQ(drawn().bodies.size(), before + 9) << "one rain, one step";
 }
 
-TEST(Drawing, AConveyorCarriesBallsOfAnySizeTheWayOfItsDragAndIsOneStep) {
+TEST(DrawingAgain, AConveyorCarriesBallsOfAnySizeTheWayOfItsDragAndIsOneStep) {
     for (const double size : {0.02, 0.06, 0.12})
         for (const double to : {0.15, 0.85}) {
             Board board;
@@ -136,7 +136,7 @@ TEST(Drawing, AConveyorCarriesBallsOfAnySizeTheWayOfItsDragAndIsOneStep) {
         }
 }
 
-TEST(Drawing, AConveyorCarriesARainOfSmallBalls) {
+TEST(DrawingAgain, AConveyorCarriesARainOfSmallBalls) {
     for (const int count : {20, 200}) {
         Board board;
         board.key('c');
@@ -288,7 +288,7 @@ TEST_F(Drawing, AJointInTheAirSaysHowUntilOneHolds) {
     EXPECT_NE(model.messages().shown().act.name, "Pause");
 }
 
-TEST(Drawing, ARainOfAClickOrAFlatDragIsWithinTheFieldAndOfASize) {
+TEST(DrawingAgain, ARainOfAClickOrAFlatDragIsWithinTheFieldAndOfASize) {
     for (const auto& [from, y] : {std::pair{0.98, 0.02}, {0.98, 0.98}, {0.2, 0.02}, {0.2, 0.98}}) {
         Board board;
         board.pane.setRainCount(50);

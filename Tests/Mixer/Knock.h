@@ -25,7 +25,7 @@ inline bool writeKnock(const juce::File& file) {
         for (const auto& [hz, decay, amplitude] : partials)
             if (const double t = static_cast<double>(i - onset) / rate; t >= 0.0)
                 x += amplitude * std::sin(2.0 * std::numbers::pi * hz * t) * std::exp(-decay * t);
-        nth(samples, i) = static_cast<float>(x);
+        samples[static_cast<std::size_t>(i)] = static_cast<float>(x);
     }
     WavSink sink{file.getFullPathName().toStdString(), 1, rate};
     const float* channels[]{samples.data()};

@@ -38,7 +38,7 @@ def options() -> Iterator[str]:
 def fields() -> Iterator[str]:
     for file in (file for house in ("Source", "Plugin", "Standalone") for file in sorted((root / house).rglob("*")) if file.suffix in (".h", ".cpp")):
         owner = file.stem
-        for structure, part, name in re.findall(r'FieldsOf<(?:\w+::)*(\w+)>|void visit(\w+)\(auto& v\)|\bv\.\w+\("(\w+)"', file.read_text()):
+        for structure, part, name in re.findall(r'FieldsOf<(?:\w+::)*(\w+)>|void visit(\w+)\(auto& v\)|\b(?:v\.\w+\(|mayHave\(v, )"(\w+)"', file.read_text()):
             owner = structure or (part if f'FieldsOf<{part}>' in file.read_text() else '') or owner
             if name:
                 yield f"field {owner} {name}"

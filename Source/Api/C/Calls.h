@@ -23,14 +23,12 @@ inline std::array<char, 640>& lastError() noexcept {
     return line;
 }
 
-/// As much of a text as fits, and the zero that ends it. `to` is not empty.
-inline void copyText(std::string_view text, std::span<char> to) noexcept {
-    *std::ranges::copy(text.substr(0, to.size() - 1), to.begin()).out = '\0';
-}
-
 /// Any thread but R.
 inline int fail(int code, std::string_view line) noexcept {
-    copyText(line, lastError());
+    auto& kept = lastError();
+    const std::size_t length = std::min(line.size(), kept.size() - 1);
+    std::copy_n(line.data(), length, kept.data());
+    kept[length] = '\0';
     return code;
 }
 
@@ -104,12 +102,6 @@ bool take(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noe
     return true;
 }
 
-/// The same; null: as its init leaves it.
-template <class Struct>
-bool takeOrBegin(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noexcept {
-    return from == nullptr ? init(&to, sizeof to) == PHYSVIB_OK : take(from, to, init);
-}
-
 /// Of a caller's event or layout: its bytes in memory, or 0 if it says a size that this library does not
 /// know. A size of 0 is not known either: a list of such would be stepped through wrongly by a program with a
 /// later, longer header.
@@ -170,12 +162,6 @@ inline std::optional<double> optional(double value) noexcept {
 /// Converts and checks settings; returns empty, or what is wrong and what was expected.
 std::string_view convert(const physvib_renderer_settings& from, RendererSettings& to) noexcept;
 std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexcept;
-
-/// Reads a caller's settings. Sets the error and returns false if they are invalid.
-inline bool takeRenderer(const physvib_renderer_settings* from, RendererSettings& to) noexcept {
-    physvib_renderer_settings taken;
-    return take(from, taken, physvib_renderer_settings_init) && resultOf(convert(taken, to)) == PHYSVIB_OK;
-}
 
 /// Writes as much of a layout as the caller's `to` has; returns PHYSVIB_OK, or sets the error.
 int writeLayout(const EnchanterLayout& from, physvib_layout& to) noexcept;

@@ -36,17 +36,10 @@ struct ListSource {
     }
 };
 
-// What has been read goes to the caller, or why it could not be, with `code`.
-
-int layoutTo(physvib_layout& to, const Result<LayoutDescription>& read, int code) {
-    return read ? writeLayout(read.value.geometry, to) : fail(code, read.error);
-}
-
 /// Writes as many events as fit; returns the number there are.
-physvib_int64 listTo(physvib_event* to, physvib_int64 capacity, const Result<EventList>& read, int code) {
-    if (!read) return fail(code, read.error);
-    const physvib_int64 written = writeEvents(read.value.events, to, capacity);
-    return written < 0 ? written : std::ssize(read.value.events);
+physvib_int64 listTo(physvib_event* events, physvib_int64 capacity, const std::vector<CollisionEvent>& list) {
+    const physvib_int64 written = writeEvents(list, events, capacity);
+    return written < 0 ? written : std::ssize(list);
 }
 
 int fieldTo(const char* from, auto read, int code, double* width, double* height) {
@@ -133,7 +126,8 @@ int physvib_layout_preset(const char* name, physvib_layout* layout) {
         return nothingThere("layout: expected a name and a place for it, found NULL");
     return guarded([&] {
         if (!layoutPreset(name, preset))
-            return nothingThere("layout: expected " + listedByNumber(layoutPresetNames, " to ", " or "));
+            return fail(PHYSVIB_ERROR_ARGUMENT,
+                        "layout: expected " + listedByNumber(layoutPresetNames, " to ", " or "));
         return writeLayout(preset, *layout);
     });
 }
@@ -147,7 +141,9 @@ int physvib_layout_load(const char* path, physvib_layout* layout) {
     return guarded([&] {
         if (path == nullptr || layout == nullptr)
             return nothingThere("layout: expected a path and a place for it, found NULL");
-        return layoutTo(*layout, loadLayout(path), PHYSVIB_ERROR_FILE);
+        const auto loaded = loadLayout(path);
+        if (!loaded) return fail(PHYSVIB_ERROR_FILE, loaded.error);
+        return writeLayout(loaded.value.geometry, *layout);
     });
 }
 
@@ -155,7 +151,9 @@ int physvib_layout_parse(const char* text, physvib_layout* layout) {
     return guarded([&] {
         if (text == nullptr || layout == nullptr)
             return nothingThere("layout: expected a text and a place for it, found NULL");
-        return layoutTo(*layout, readLayout(text, "layout"), PHYSVIB_ERROR_ARGUMENT);
+        const auto read = readLayout(text, "layout");
+        if (!read) return fail(PHYSVIB_ERROR_ARGUMENT, read.error);
+        return writeLayout(read.value.geometry, *layout);
     });
 }
 
@@ -164,10 +162,12 @@ int physvib_layout_save(const char* path, const char* name, const physvib_layout
         if (path == nullptr || name == nullptr || layout == nullptr)
             return nothingThere("layout: expected a path, a name and a layout, found NULL");
         EnchanterLayout geometry;
-        if (const auto fault = convert(*layout, geometry); !fault.empty()) return nothingThere(fault);
+        if (const auto fault = convert(*layout, geometry); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         const std::string text = layoutJson(describeLayout(name, geometry));
         // refuses to write a file that could not be loaded
-        if (const auto again = readLayout(text, name); !again) return nothingThere(again.error);
+        if (const auto again = readLayout(text, name); !again)
+            return fail(PHYSVIB_ERROR_ARGUMENT, again.error);
         return written(writeFile(path, text));
     });
 }
@@ -176,7 +176,9 @@ physvib_int64 physvib_events_load(const char* path, physvib_event* events, physv
     return guarded([&]() -> physvib_int64 {
         if (path == nullptr || capacity < 0 || (capacity > 0 && events == nullptr))
             return nothingThere("events: expected a path and a place for them");
-        return listTo(events, capacity, loadEventsCsv(path), PHYSVIB_ERROR_FILE);
+        const auto loaded = loadEventsCsv(path);
+        if (!loaded) return fail(PHYSVIB_ERROR_FILE, loaded.error);
+        return listTo(events, capacity, loaded.value.events);
     });
 }
 
@@ -184,7 +186,9 @@ physvib_int64 physvib_events_parse(const char* text, physvib_event* events, phys
     return guarded([&]() -> physvib_int64 {
         if (text == nullptr || capacity < 0 || (capacity > 0 && events == nullptr))
             return nothingThere("events: expected a text and a place for them");
-        return listTo(events, capacity, readEventsCsv(text, "events"), PHYSVIB_ERROR_ARGUMENT);
+        const auto read = readEventsCsv(text, "events");
+        if (!read) return fail(PHYSVIB_ERROR_ARGUMENT, read.error);
+        return listTo(events, capacity, read.value.events);
     });
 }
 
@@ -208,9 +212,10 @@ int physvib_events_save_field(const char* path, const physvib_event* events, phy
             return nothingThere("events: expected a path and at least one event");
         const FieldSize field{width, height};
         if (!(field == FieldSize{}) && !isField(field))
-            return nothingThere("field: expected 0.001 to 1e6 m, or 0 and 0");
+            return fail(PHYSVIB_ERROR_ARGUMENT, "field: expected 0.001 to 1e6 m, or 0 and 0");
         std::vector<CollisionEvent> own;
-        if (const auto fault = readSorted(events, count, own); !fault.empty()) return nothingThere(fault);
+        if (const auto fault = readSorted(events, count, own); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         return written(writeFile(path, eventsCsv(own, field, {PHYSVIB_VERSION, {}})));
     });
 }
@@ -221,13 +226,15 @@ int physvib_wav_save(const char* path, const float* samples, int channels, physv
             return nothingThere("sound: expected a path and samples, found NULL");
         if (channels < 1 || channels > limits::maxEnchanters || !isSampleRate(rateHz) || frames < 1 ||
             !fitsWav(channels, frames))
-            return nothingThere("sound: expected 1 to 64 channels, 5000 to 192000 Hz, and less than 4 GB");
+            return fail(PHYSVIB_ERROR_ARGUMENT,
+                        "sound: expected 1 to 64 channels, 5000 to 192000 Hz, and less than 4 GB");
         const std::span all{samples, static_cast<std::size_t>(channels * frames)};
         if (const auto bad = std::ranges::find_if_not(all, [](float x) { return std::isfinite(x); });
             bad != all.end())
-            return nothingThere("sound: expected finite samples, found NaN or infinity in frame " +
-                                std::to_string((bad - all.begin()) % frames) + " of channel " +
-                                std::to_string((bad - all.begin()) / frames));
+            return fail(PHYSVIB_ERROR_ARGUMENT,
+                        "sound: expected finite samples, found NaN or infinity in frame " +
+                            std::to_string((bad - all.begin()) % frames) + " of channel " +
+                            std::to_string((bad - all.begin()) / frames));
         WavSink file{path, channels, rateHz};
         std::vector<const float*> block(static_cast<std::size_t>(channels));
         for (physvib_int64 from = 0; from < frames && file.error().empty(); from += limits::maxBlockFrames) {
@@ -243,15 +250,20 @@ int physvib_wav_save(const char* path, const float* samples, int channels, physv
 int physvib_render(const physvib_renderer_settings* settings, const physvib_event* events,
                    physvib_int64 count, physvib_int64 frames, float* samples) {
     return guarded([&] {
+        physvib_renderer_settings taken;
         RendererSettings wanted;
-        if (!takeRenderer(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+        if (!take(settings, taken, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
+        if (const auto fault = convert(taken, wanted); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         if (count < 0 || (count > 0 && events == nullptr) || frames < 0 || (frames > 0 && samples == nullptr))
             return nothingThere("render: expected events and a place for samples");
         std::vector<CollisionEvent> own;
-        if (const auto fault = readSorted(events, count, own); !fault.empty()) return nothingThere(fault);
+        if (const auto fault = readSorted(events, count, own); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         ListSource source{own};
         const auto renderer = std::make_unique<HapticRenderer>();
-        if (!renderer->prepare(wanted)) return nothingThere("settings: expected some that can be rendered");
+        if (!renderer->prepare(wanted))
+            return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
         constexpr int blockFrames = 256;
         const int channels = wanted.outputs();
         std::vector<float> memory(static_cast<std::size_t>(channels * blockFrames));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Handles for objects that callers own. A forged or freed one is detected and never dereferenced.
 #pragma once
-#include "Api/C/Calls.h"
 #include "Core/Nonblocking.h"
 #include <array>
 #include <atomic>
@@ -16,16 +15,10 @@ namespace physvib::api {
 
 /// Table of up to 256 objects of one kind. A handle combines the index in the table and a use count, so each
 /// is unique (on 32-bit machines it repeats after 2^20 uses).
-template <class Object, class Name, std::uintptr_t Kind>
+template <class Object, std::uintptr_t Kind>
 class Handles {
 public:
     static constexpr std::size_t capacity = 256;
-
-    /// The only table; never destroyed: threads may outlive main.
-    static Handles& all() {
-        static auto* const one = new Handles;
-        return *one;
-    }
 
     /// Keeps an object from being freed while it is in use.
     class Use {
@@ -50,24 +43,23 @@ public:
         std::atomic<int>* users_ = nullptr;
     };
 
-    /// Adds an object and writes its handle to `to`; returns PHYSVIB_OK, or an error with the text `full`.
-    /// Any thread but R.
-    int add(std::unique_ptr<Object> object, Name* to, std::string_view full) noexcept {
+    /// Adds an object and returns its handle; 0: the table is full. Any thread but R.
+    std::uintptr_t add(std::unique_ptr<Object> object) noexcept {
         const std::lock_guard lock{mutex_};
-        const auto free = std::ranges::find_if(slots_, [](const Slot& slot) { return !slot.object; });
-        if (free == slots_.end()) return fail(PHYSVIB_ERROR_FULL, full);
-        free->object = std::move(object);
-        const auto index = static_cast<std::uintptr_t>(free - slots_.begin());
-        const std::uintptr_t name = ++free->age << 12U | index << 4U | Kind;
-        free->name.store(name);
-        *to = reinterpret_cast<Name>(name);
-        return PHYSVIB_OK;
+        for (std::size_t i = 0; i < capacity; ++i) {
+            Slot& slot = slots_[i];
+            if (slot.object) continue;
+            slot.object = std::move(object);
+            const std::uintptr_t name = ++slot.age << 12U | i << 4U | Kind;
+            slot.name.store(name);
+            return name;
+        }
+        return 0;
     }
 
     /// Removes the object from the table once no thread uses it; null if there is none. Any thread but R.
-    std::unique_ptr<Object> take(Name handle) noexcept {
+    std::unique_ptr<Object> take(std::uintptr_t name) noexcept {
         const std::lock_guard lock{mutex_};
-        const auto name = reinterpret_cast<std::uintptr_t>(handle);
         Slot& slot = slotOf(name);
         if (name == 0 || slot.name.load() != name) return {};
         slot.name.store(0);
@@ -75,27 +67,16 @@ public:
         return std::move(slot.object);
     }
 
-    /// Destroys the object. Returns PHYSVIB_OK, or the error of an unknown handle. Any thread but R.
-    int remove(Name handle) noexcept { return take(handle) != nullptr ? PHYSVIB_OK : unknownHandle(); }
+    /// Destroys the object. False if the handle is unknown. Any thread but R.
+    bool remove(std::uintptr_t name) noexcept { return take(name) != nullptr; }
 
     /// The object of that handle, if it exists. Any thread, wait-free.
-    Use use(Name handle) noexcept PHYSVIB_NONBLOCKING {
-        const auto name = reinterpret_cast<std::uintptr_t>(handle);
+    Use use(std::uintptr_t name) noexcept PHYSVIB_NONBLOCKING {
         Slot& slot = slotOf(name);
         slot.users.fetch_add(1); // before reading the name; take() clears the name before it reads the users
         if (name != 0 && slot.name.load() == name) return {*slot.object, slot.users};
         slot.users.fetch_sub(1);
         return {};
-    }
-
-    /// Returns the result of `call(object)`, as guarded() does, or the error of an unknown handle.
-    template <class Call>
-    auto in(Name handle, Call call) noexcept -> decltype(call(std::declval<Object&>())) {
-        return guarded([&]() -> decltype(call(std::declval<Object&>())) {
-            const Use object = use(handle);
-            if (!object) return unknownHandle();
-            return call(*object);
-        });
     }
 
 private:

@@ -107,28 +107,37 @@ struct Pads {
     Pad& at(int pad) noexcept { return pads[static_cast<std::size_t>(pad)]; }
 };
 
-using Renderers = Handles<Renderer, physvib_renderer, 1>;
-using Worlds = Handles<World, physvib_world, 2>;
-using AllPads = Handles<Pads, physvib_pads, 7>;
+inline Handles<Renderer, 1>& renderers() {
+    static auto* const all = new Handles<Renderer, 1>; // never destroyed: threads may outlive main
+    return *all;
+}
+inline Handles<World, 2>& worlds() {
+    static auto* const all = new Handles<World, 2>;
+    return *all;
+}
+inline Handles<Pads, 7>& allPads() {
+    static auto* const all = new Handles<Pads, 7>;
+    return *all;
+}
 
-inline auto use(physvib_renderer name) noexcept { return Renderers::all().use(name); }
+inline auto use(physvib_renderer renderer) noexcept {
+    return renderers().use(reinterpret_cast<std::uintptr_t>(renderer));
+}
+inline auto use(physvib_world world) noexcept {
+    return worlds().use(reinterpret_cast<std::uintptr_t>(world));
+}
+inline auto use(physvib_pads pads) noexcept { return allPads().use(reinterpret_cast<std::uintptr_t>(pads)); }
 
 /// Calls `call` with the world or the controllers of that handle, under their mutex; returns its code or
 /// count.
-template <class Table, class Name, class Call>
-auto locked(Name name, Call call) noexcept {
-    return Table::all().in(name, [&](auto& object) {
-        const std::lock_guard lock{object.mutex};
-        return call(object);
+template <class Handle, class Call>
+auto in(Handle name, Call call) noexcept -> decltype(call(*use(name))) {
+    return guarded([&]() -> decltype(call(*use(name))) {
+        const auto object = use(name);
+        if (!object) return unknownHandle();
+        const std::lock_guard lock{object->mutex};
+        return call(*object);
     });
-}
-template <class Call>
-auto in(physvib_world name, Call call) noexcept {
-    return locked<Worlds>(name, call);
-}
-template <class Call>
-auto in(physvib_pads name, Call call) noexcept {
-    return locked<AllPads>(name, call);
 }
 
 } // namespace physvib::api

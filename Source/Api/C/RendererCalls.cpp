@@ -12,27 +12,32 @@ namespace {
 
 constexpr std::string_view wrongTime = "time: expected 0 to 10^17 ns";
 
-constexpr int maxPads = 64;
-
 bool isTime(physvib_int64 ns) noexcept { return ns >= 0 && ns <= limits::maxTimeNs; }
-bool isFieldSize(double metres) noexcept { return metres > 0.0 && metres <= 1.0e9; } // not NaN
-int noSuchPad() noexcept { return nothingThere("pad: expected one of those created, from 0 on"); }
 
 int change(physvib_renderer name, const RenderControl& control) noexcept {
     const auto renderer = use(name);
     if (!renderer) return unknownHandle();
-    if (!isTime(control.timeNs)) return nothingThere(wrongTime);
+    if (!isTime(control.timeNs)) return fail(PHYSVIB_ERROR_ARGUMENT, wrongTime);
     if (control.channel < 0 || control.channel >= renderer->channels)
-        return nothingThere("channel: expected one of the renderer");
+        return fail(PHYSVIB_ERROR_ARGUMENT, "channel: expected one of the renderer");
     if (!(control.value >= 0.0F && control.value <= 10000.0F))
-        return nothingThere("gain: expected 0 to 10000");
+        return fail(PHYSVIB_ERROR_ARGUMENT, "gain: expected 0 to 10000");
     if (control.panner != nullptr && control.panner->channels() > renderer->channels)
-        return nothingThere("layout: expected at most as many enchanters as channels");
+        return fail(PHYSVIB_ERROR_ARGUMENT, "layout: expected at most as many enchanters as channels");
     const std::lock_guard lock{renderer->producers};
     if (!renderer->source.controls.push(control))
         return fail(PHYSVIB_ERROR_FULL, "changes: expected at most 256 that wait");
     renderer->changes.take(control);
     return PHYSVIB_OK;
+}
+
+RenderControl controlOf(RenderControl::Kind kind, physvib_int64 timeNs, int channel, double value) {
+    RenderControl control;
+    control.timeNs = timeNs;
+    control.kind = kind;
+    control.channel = channel;
+    control.value = static_cast<float>(value);
+    return control;
 }
 
 /// Marks a renderer as rendering, so that a second thread is refused. R.
@@ -72,26 +77,34 @@ int physvib_renderer_create(const physvib_renderer_settings* settings, physvib_r
     return guarded([&] {
         if (renderer == nullptr) return nothingThere("renderer: expected a place for it, found NULL");
         *renderer = nullptr;
+        physvib_renderer_settings taken;
         RendererSettings wanted;
-        if (!takeRenderer(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+        if (!take(settings, taken, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
+        if (const auto fault = convert(taken, wanted); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         auto made = std::make_unique<Renderer>();
         if (!made->renderer.prepare(wanted))
-            return nothingThere("settings: expected some that can be rendered");
+            return fail(PHYSVIB_ERROR_ARGUMENT, "settings: expected some that can be rendered");
         made->rateHz = wanted.sampleRateHz;
         made->channels = wanted.outputs();
         made->changes.panner = wanted.panner;
-        return Renderers::all().add(std::move(made), renderer, "renderers: expected at most 256");
+        const std::uintptr_t name = renderers().add(std::move(made));
+        if (name == 0) return fail(PHYSVIB_ERROR_FULL, "renderers: expected at most 256");
+        *renderer = reinterpret_cast<physvib_renderer>(name);
+        return PHYSVIB_OK;
     });
 }
 
-int physvib_renderer_free(physvib_renderer renderer) { return Renderers::all().remove(renderer); }
+int physvib_renderer_free(physvib_renderer renderer) {
+    return renderers().remove(reinterpret_cast<std::uintptr_t>(renderer)) ? PHYSVIB_OK : unknownHandle();
+}
 
 int physvib_renderer_strike(physvib_renderer name, const physvib_event* event) {
     const auto renderer = use(name);
     if (!renderer) return unknownHandle();
     if (event == nullptr) return nothingThere("event: expected one, found NULL");
     CollisionEvent own;
-    if (const auto fault = readEvent(*event, own); !fault.empty()) return nothingThere(fault);
+    if (const auto fault = readEvent(*event, own); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
     const std::lock_guard lock{renderer->producers};
     return renderer->source.events.push(own)
                ? PHYSVIB_OK
@@ -135,27 +148,33 @@ int physvib_renderer_pull_interleaved(physvib_renderer name, float* samples, int
 }
 
 int physvib_renderer_set_gain(physvib_renderer renderer, physvib_int64 timeNs, int channel, double gain) {
-    return change(renderer, {timeNs, RenderControl::Kind::gain, channel, static_cast<float>(gain)});
+    return change(renderer, controlOf(RenderControl::Kind::gain, timeNs, channel, gain));
 }
 
 int physvib_renderer_set_mute(physvib_renderer renderer, physvib_int64 timeNs, int channel, int isMuted) {
-    return change(renderer, {timeNs, RenderControl::Kind::mute, channel, isMuted != 0 ? 1.0F : 0.0F});
+    return change(renderer, controlOf(RenderControl::Kind::mute, timeNs, channel, isMuted != 0 ? 1.0 : 0.0));
 }
 
 int physvib_renderer_set_level(physvib_renderer renderer, physvib_int64 timeNs, double gain) {
-    return change(renderer, {timeNs, RenderControl::Kind::level, 0, static_cast<float>(gain)});
+    return change(renderer, controlOf(RenderControl::Kind::level, timeNs, 0, gain));
 }
 
 int physvib_renderer_set_layout(physvib_renderer renderer, physvib_int64 timeNs,
                                 const physvib_renderer_settings* settings) {
+    physvib_renderer_settings taken;
     RendererSettings wanted;
-    if (!takeRenderer(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-    return change(renderer, {timeNs, RenderControl::Kind::panner, 0, 0.0F, &wanted.panner});
+    if (!take(settings, taken, physvib_renderer_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
+    if (const auto fault = convert(taken, wanted); !fault.empty()) return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+    RenderControl control = controlOf(RenderControl::Kind::panner, timeNs, 0, 0.0);
+    control.panner = &wanted.panner;
+    return change(renderer, control);
 }
 
 int physvib_renderer_silence(physvib_renderer renderer, physvib_int64 timeNs, physvib_int64 untilNs) {
-    if (!isTime(untilNs)) return nothingThere(wrongTime);
-    return change(renderer, {timeNs, RenderControl::Kind::silence, 0, 0.0F, nullptr, untilNs});
+    if (!isTime(untilNs)) return fail(PHYSVIB_ERROR_ARGUMENT, wrongTime);
+    RenderControl control = controlOf(RenderControl::Kind::silence, timeNs, 0, 0.0);
+    control.untilNs = untilNs;
+    return change(renderer, control);
 }
 
 int physvib_renderer_latency_frames(physvib_renderer name) {
@@ -171,6 +190,7 @@ int physvib_renderer_get_status(physvib_renderer name, physvib_renderer_status* 
     if (!renderer) return unknownHandle();
     const std::lock_guard lock{renderer->readers};
     const RenderStatus now = renderer->status.read();
+    told.size = status->size;
     told.live_modes = now.liveModes;
     told.pending = now.pending;
     told.frames = now.framesRendered;
@@ -178,7 +198,8 @@ int physvib_renderer_get_status(physvib_renderer name, physvib_renderer_status* 
     told.late = static_cast<physvib_int64>(now.late);
     told.rejected = static_cast<physvib_int64>(now.rejected);
     told.refused = static_cast<physvib_int64>(renderer->source.events.overflows());
-    return begin(status, status->size, told);
+    std::memcpy(status, &told, told.size);
+    return PHYSVIB_OK;
 }
 
 physvib_int64 physvib_play_out_ns(int rateHz, int blockFrames, int stepsPerSecond, double longestGapSeconds) {
@@ -187,13 +208,29 @@ physvib_int64 physvib_play_out_ns(int rateHz, int blockFrames, int stepsPerSecon
                             stepsPerSecond <= 1'000'000 && longestGapSeconds >= 0.0 &&
                             longestGapSeconds <= 60.0;
     if (!isPossible)
-        return nothingThere("play-out delay: expected 5000 to 192000 Hz, 1 to 8192 frames, 1 "
-                            "to 10^6 steps/s, a gap of 0 to 60 s");
-    const ClockLaw law{rateHz, blockFrames, stepsPerSecond, longestGapSeconds,
-                       HapticRenderer::latencyFramesAt(rateHz)};
+        return fail(PHYSVIB_ERROR_ARGUMENT, "play-out delay: expected 5000 to 192000 Hz, 1 to 8192 frames, 1 "
+                                            "to 10^6 steps/s, a gap of 0 to 60 s");
+    ClockLaw law;
+    law.sampleRateHz = rateHz;
+    law.blockFrames = blockFrames;
+    law.stepsPerSecond = stepsPerSecond;
+    law.longestGapSeconds = longestGapSeconds;
+    law.limiterFrames = HapticRenderer::latencyFramesAt(rateHz);
     constexpr std::int64_t nsPerSecond = 1'000'000'000;
     return (law.outputLatencyFrames() * nsPerSecond + rateHz - 1) / rateHz;
 }
+
+using namespace physvib;
+using namespace physvib::api;
+
+namespace {
+
+constexpr int maxPads = 64;
+
+int noSuchPad() noexcept { return nothingThere("pad: expected one of those created, from 0 on"); }
+bool isFieldSize(double metres) noexcept { return metres > 0.0 && metres <= 1.0e9; } // not NaN
+
+} // namespace
 
 int physvib_pads_create(int count, double fieldWidth, double fieldHeight, const char* profile,
                         physvib_pads* pads) {
@@ -207,11 +244,16 @@ int physvib_pads_create(int count, double fieldWidth, double fieldHeight, const 
         if (!found) return fail(PHYSVIB_ERROR_FILE, found.error);
         auto made = std::make_unique<Pads>();
         made->pads.assign(static_cast<std::size_t>(count), Pad{found.value.law, fieldWidth, fieldHeight});
-        return AllPads::all().add(std::move(made), pads, "pads: expected at most 256 handles");
+        const std::uintptr_t name = allPads().add(std::move(made));
+        if (name == 0) return fail(PHYSVIB_ERROR_FULL, "pads: expected at most 256 handles");
+        *pads = reinterpret_cast<physvib_pads>(name);
+        return PHYSVIB_OK;
     });
 }
 
-int physvib_pads_free(physvib_pads pads) { return AllPads::all().remove(pads); }
+int physvib_pads_free(physvib_pads pads) {
+    return allPads().remove(reinterpret_cast<std::uintptr_t>(pads)) ? PHYSVIB_OK : unknownHandle();
+}
 
 int physvib_pads_strike(physvib_pads name, int pad, const physvib_event* event) {
     return in(name, [&](Pads& pads) {
@@ -236,8 +278,9 @@ physvib_int64 physvib_pads_send(physvib_pads name, int pad, physvib_world world,
         for (physvib_int64 sent = 0;;) {
             const physvib_int64 count = physvib_world_take(world, part.data(), part.size(), atOnce);
             if (count < 0) return count; // its text is that of physvib_world_take
-            for (const physvib_event& taken : std::span{part}.first(static_cast<std::size_t>(count))) {
-                CollisionEvent event = eventOf(taken);
+            for (CollisionEvent event;
+                 const physvib_event& taken : std::span{part}.first(static_cast<std::size_t>(count))) {
+                event = eventOf(taken);
                 event.timeNs += laterNs;
                 sent += pads.at(pad).strike(event) ? 1 : 0;
             }
@@ -251,7 +294,7 @@ int physvib_pads_pull(physvib_pads name, physvib_int64 untilNs, physvib_motors* 
         const int count = static_cast<int>(pads.pads.size());
         if (motors == nullptr || capacity < count)
             return nothingThere("motors: expected a place for those of each pad");
-        if (!isTime(untilNs)) return nothingThere(wrongTime);
+        if (untilNs < 0 || untilNs > limits::maxTimeNs) return nothingThere("time: expected 0 to 10^17 ns");
         if (untilNs < pads.pads.front().pulledNs())
             return fail(PHYSVIB_ERROR_ORDER,
                         "time: expected none before the last pull's (physvib_pads_stop begins again)");

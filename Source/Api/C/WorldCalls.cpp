@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
-// C functions of a world: report contacts, take events, say why nothing is felt.
+// C functions of a world: report contacts, take events.
 #include "Api/C/Calls.h"
 #include "Api/C/Objects.h"
-#include "Contacts/ContactCounts.h"
-#include <algorithm>
 #include <cmath>
-#include <string>
-#include <utility>
 
 using namespace physvib;
 using namespace physvib::api;
@@ -24,7 +20,10 @@ int inOrder(std::string_view fault) noexcept {
 
 bool convert(const physvib_world_settings* from, ImpactSettings& to) {
     physvib_world_settings taken;
-    if (!takeOrBegin(from, taken, physvib_world_settings_init)) return false;
+    if (from == nullptr)
+        physvib_world_settings_init(&taken, sizeof taken);
+    else if (!take(from, taken, physvib_world_settings_init))
+        return false;
     for (const double number : {taken.field_x_m, taken.field_y_m, taken.field_radians})
         if (!(std::abs(number) <= 1.0e9)) return nothingThere("field: expected numbers"), false;
     to.fieldWidthMetres = taken.field_width_m;
@@ -40,8 +39,7 @@ bool convert(const physvib_world_settings* from, ImpactSettings& to) {
     to.fieldRadians = static_cast<float>(taken.field_radians);
     to.fullScaleNewtonSeconds = taken.full_scale_impulse_n_s;
     to.settlingSeconds = taken.settling_s;
-    // checked here, because without exceptions configure() could not release the lock
-    return resultOf(faultOf(to)) == PHYSVIB_OK;
+    return true;
 }
 
 HapticFixture fixtureOf(const physvib_body& body) {
@@ -100,8 +98,9 @@ int tell(physvib_world name, const physvib_contact* contact,
         const std::string_view fault = (world.feed.*call)(contactOf(taken));
         const int unknown = world.feed.counts().unknownBody;
         if (fault.starts_with("body:") && (unknown == taken.a || unknown == taken.b))
-            return nothingThere("body " + std::to_string(unknown) +
-                                ": expected one that was set before its contacts (set_body)");
+            return fail(PHYSVIB_ERROR_ARGUMENT,
+                        "body " + std::to_string(unknown) +
+                            ": expected one that was set before its contacts (set_body)");
         return inOrder(fault);
     });
 }
@@ -113,50 +112,6 @@ void collect(World& world, bool atOnce) {
         world.feed.take(world.taken);
 }
 
-// Outputs count since they were opened; of another output than last time, all counts.
-std::uint64_t since(std::uint64_t& last, std::uint64_t now) noexcept {
-    const std::uint64_t before = std::exchange(last, now);
-    return now >= before ? now - before : now;
-}
-
-int explain(physvib_world name, OutputFacts* output, char* text, size_t size) noexcept {
-    return in(name, [&](World& world) {
-        if (text == nullptr || size == 0) return nothingThere("text: expected a place for it");
-        if (output != nullptr) {
-            output->late = since(world.late, output->late);
-            output->dropped = since(world.dropped, output->dropped);
-            output->rejected = since(world.rejected, output->rejected);
-            output->withoutPart = since(world.withoutPart, output->withoutPart);
-        }
-        const ContactCounts recent = world.feed.takeRecent();
-        const std::string sentence = physvib::explain(recent, world.feed.counts(), output);
-        copyText(sentence, {text, size});
-        return static_cast<int>(sentence.size());
-    });
-}
-
-OutputFacts outputOf(Renderer& renderer, const LastChanges& changes) {
-    const std::lock_guard lock{renderer.readers};
-    const RenderStatus status = renderer.status.read();
-    const double now = static_cast<double>(status.framesRendered) / renderer.rateHz * 1.0e9;
-    OutputFacts output;
-    output.isMissing = status.framesRendered == 0;
-    if (output.isMissing) output.trouble = "no samples have been pulled from the renderer";
-    output.isSilent = now < static_cast<double>(changes.silentUntilNs);
-    output.silentBy = "physvib_renderer_silence";
-    output.channels = renderer.channels;
-    output.levelGain = changes.level;
-    output.mutedChannels = changes.mutedChannels();
-    output.late = status.late;
-    output.dropped = renderer.source.events.overflows();
-    output.rejected = status.rejected;
-    output.panner = &changes.panner;
-    output.withoutPart = status.withoutPart;
-    return output;
-}
-
-std::string_view viewOf(const char* text) noexcept { return text == nullptr ? "" : text; }
-
 } // namespace
 
 int physvib_world_create(const physvib_world_settings* settings, physvib_world* world) {
@@ -165,16 +120,26 @@ int physvib_world_create(const physvib_world_settings* settings, physvib_world* 
         *world = nullptr;
         ImpactSettings wanted;
         if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
-        return Worlds::all().add(std::make_unique<World>(wanted), world, "worlds: expected at most 256");
+        if (const std::string_view fault = faultOf(wanted); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
+        const std::uintptr_t name = worlds().add(std::make_unique<World>(wanted));
+        if (name == 0) return fail(PHYSVIB_ERROR_FULL, "worlds: expected at most 256");
+        *world = reinterpret_cast<physvib_world>(name);
+        return PHYSVIB_OK;
     });
 }
 
-int physvib_world_free(physvib_world world) { return Worlds::all().remove(world); }
+int physvib_world_free(physvib_world world) {
+    return worlds().remove(reinterpret_cast<std::uintptr_t>(world)) ? PHYSVIB_OK : unknownHandle();
+}
 
 int physvib_world_configure(physvib_world name, const physvib_world_settings* settings) {
     return in(name, [&](World& world) {
         ImpactSettings wanted;
         if (!convert(settings, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+        // checked here, because without exceptions configure() could not release the lock
+        if (const std::string_view fault = faultOf(wanted); !fault.empty())
+            return fail(PHYSVIB_ERROR_ARGUMENT, fault);
         world.feed.configure(wanted);
         return PHYSVIB_OK;
     });
@@ -185,8 +150,8 @@ int physvib_world_set_body(physvib_world name, int body, const physvib_body* val
         physvib_body taken;
         if (!take(values, taken, physvib_body_init)) return PHYSVIB_ERROR_ARGUMENT;
         if (taken.voice < PHYSVIB_VOICE_OWN || taken.voice > PHYSVIB_VOICE_BOTH)
-            return nothingThere("voice: expected one of PHYSVIB_VOICE_...");
-        if (taken.device < 0) return nothingThere("device: expected 0 or more");
+            return fail(PHYSVIB_ERROR_ARGUMENT, "voice: expected one of PHYSVIB_VOICE_...");
+        if (taken.device < 0) return fail(PHYSVIB_ERROR_ARGUMENT, "device: expected 0 or more");
         const std::string_view fault =
             world.feed.set(body, {taken.mass_kg, taken.inertia_kg_m2, taken.gravity_scale}, fixtureOf(taken));
         if (fault.empty() && taken.device != 0)
@@ -254,7 +219,7 @@ int physvib_world_pair(physvib_world name, int surface, int other, double freque
 int physvib_world_begin_step(physvib_world name, double seconds, double gravity) {
     return in(name, [&](World& world) {
         if (!(seconds >= 0.0 && seconds <= longestStepSeconds))
-            return nothingThere("step: expected 0 to 3600 s");
+            return fail(PHYSVIB_ERROR_ARGUMENT, "step: expected 0 to 3600 s");
         return inOrder(world.feed.beginStep(world.feed.timeNs() + std::llround(seconds * 1.0e9), gravity));
     });
 }
@@ -298,7 +263,7 @@ physvib_int64 physvib_world_send(physvib_world name, physvib_renderer to, physvi
         const auto renderer = use(to);
         if (!renderer) return unknownHandle();
         if (laterNs < 0 || laterNs > limits::maxTimeNs / 2)
-            return nothingThere("delay: expected 0 to 5 10^16 ns");
+            return fail(PHYSVIB_ERROR_ARGUMENT, "delay: expected 0 to 5 10^16 ns");
         collect(world, atOnce != 0);
         physvib_int64 sent = 0;
         const std::lock_guard lock{renderer->producers};
@@ -327,6 +292,7 @@ int physvib_world_get_counts(physvib_world name, physvib_world_counts* counts) {
         const ContactCounts now = world.feed.counts();
         physvib_world_counts taken;
         if (!take(counts, taken, physvib_world_counts_init)) return PHYSVIB_ERROR_ARGUMENT;
+        const std::size_t size = counts->size; // of the caller's version
         const auto number = [](std::uint64_t count) { return static_cast<physvib_int64>(count); };
         taken.contacts = number(now.contacts);
         taken.below_threshold = number(now.belowThreshold);
@@ -336,63 +302,6 @@ int physvib_world_get_counts(physvib_world name, physvib_world_counts* counts) {
         taken.dropped = number(now.dropped);
         taken.events = number(now.events);
         taken.threshold_m_per_s = now.thresholdMetresPerSecond;
-        return begin(counts, counts->size, taken);
-    });
-}
-
-int physvib_output_facts_init(physvib_output_facts* facts, size_t size) {
-    auto usual = zeroed<physvib_output_facts>();
-    usual.level = 1.0;
-    return begin(facts, size, usual);
-}
-
-int physvib_world_note(physvib_world name, int body, int note) {
-    return in(name, [&](World& world) {
-        if (note < PHYSVIB_NOTE_SENSOR || note > PHYSVIB_NOTE_ASLEEP)
-            return nothingThere("note: expected one of PHYSVIB_NOTE_...");
-        return resultOf(world.feed.note(body, static_cast<EngineNote>(note)));
-    });
-}
-static_assert(PHYSVIB_NOTE_SENSOR == static_cast<int>(EngineNote::sensor) &&
-              PHYSVIB_NOTE_ASLEEP == static_cast<int>(EngineNote::asleep));
-
-int physvib_world_explain(physvib_world world, char* text, size_t size) {
-    return explain(world, nullptr, text, size);
-}
-
-int physvib_world_explain_output(physvib_world world, const physvib_output_facts* facts, char* text,
-                                 size_t size) {
-    physvib_output_facts taken;
-    if (!take(facts, taken, physvib_output_facts_init)) return PHYSVIB_ERROR_ARGUMENT;
-    if (!(taken.level >= 0.0)) return nothingThere("level: expected a gain of 0 or more");
-    RendererSettings renderer;
-    if (taken.renderer != nullptr && !takeRenderer(taken.renderer, renderer)) return PHYSVIB_ERROR_ARGUMENT;
-    const auto count = [](physvib_int64 told) {
-        return static_cast<std::uint64_t>(std::max<physvib_int64>(told, 0));
-    };
-    OutputFacts output{taken.is_missing != 0,
-                       taken.is_silent != 0,
-                       viewOf(taken.silent_by),
-                       viewOf(taken.trouble),
-                       std::max(0, taken.channels),
-                       taken.level,
-                       static_cast<std::uint64_t>(taken.muted_channels),
-                       count(taken.late),
-                       count(taken.dropped),
-                       count(taken.rejected),
-                       taken.renderer != nullptr ? &renderer.panner : nullptr,
-                       count(taken.without_part)};
-    return explain(world, &output, text, size);
-}
-
-int physvib_renderer_explain(physvib_renderer name, physvib_world world, char* text, size_t size) {
-    return Renderers::all().in(name, [&](Renderer& renderer) {
-        LastChanges changes;
-        {
-            const std::lock_guard lock{renderer.producers};
-            changes = renderer.changes;
-        }
-        OutputFacts output = outputOf(renderer, changes);
-        return explain(world, &output, text, size);
+        return begin(counts, size, taken);
     });
 }

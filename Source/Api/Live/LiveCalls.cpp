@@ -80,6 +80,7 @@ int physvib_live_left(physvib_live name, physvib_int64 fromNs, physvib_int64 toN
         if (actuator < 0 || actuator >= live.session().channels())
             return nothingThere("actuator: expected one of the device's, from 0");
         const Receipt left = live.output().left(fromNs, toNs, actuator);
+        told.size = receipt->size;
         told.frames = left.frames;
         told.peak = left.peak;
         told.mean_square = left.meanSquare;
@@ -87,7 +88,8 @@ int physvib_live_left(physvib_live name, physvib_int64 fromNs, physvib_int64 toN
         told.opening = static_cast<int>(left.opening);
         told.over = left.isOver ? 1 : 0;
         told.kept = left.isKept ? 1 : 0;
-        return begin(receipt, receipt->size, told);
+        std::memcpy(receipt, &told, told.size);
+        return PHYSVIB_OK;
     });
 }
 
@@ -174,7 +176,7 @@ int physvib_live_set_mute(physvib_live live, int channel, int isMuted) {
 int physvib_live_set_layout(physvib_live name, const physvib_renderer_settings* renderer) {
     return in(name, [&](Live& live) {
         RendererSettings wanted;
-        if (!takeRendererOrUsual(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+        if (!takeRenderer(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
         if (wanted.panner.channels() > live.session().channels())
             return nothingThere("layout: expected at most as many enchanters as channels");
         return post(live, {0, RenderControl::Kind::panner, 0, 0.0f, &wanted.panner});
@@ -196,7 +198,7 @@ int physvib_live_silence(physvib_live name, int isSilent) {
     };
     const int code = in(name, act);
     if (code != PHYSVIB_OK && isSilent != 0) // without its handle, the caller may mean any of them
-        for (const physvib_live open : openLives()) in(open, act);
+        for (const std::uintptr_t open : openLives()) in(reinterpret_cast<physvib_live>(open), act);
     return code;
 }
 
@@ -205,6 +207,7 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
         physvib_live_status told;
         if (!take<physvib_live_status>(status, told, physvib_live_status_init)) return PHYSVIB_ERROR_ARGUMENT;
         const LiveStatus now = live.status();
+        told.size = status->size;
         told.is_running = live.output().isPlaying() ? 1 : 0;
         told.is_silent = live.output().isSilent() ? 1 : 0;
         told.rate_hz = now.rateHz;
@@ -224,10 +227,15 @@ int physvib_live_get_status(physvib_live name, physvib_live_status* status) {
             told.board_sent += static_cast<physvib_int64>(sink.sent);
             told.board_lost += static_cast<physvib_int64>(sink.lost);
         }
-        copyText(now.trouble, told.trouble);
-        return begin(status, status->size, told);
+        const std::size_t length = std::min(now.trouble.size(), sizeof told.trouble - 1);
+        std::copy_n(now.trouble.data(), length, told.trouble);
+        told.trouble[length] = '\0';
+        std::memcpy(status, &told, told.size);
+        return PHYSVIB_OK;
     });
 }
+
+using namespace physvib::api;
 
 int physvib_live_impact(physvib_live live, double x, double y, double strength) {
     return physvib_live_impact_of(live, nullptr, x, y, strength);
@@ -244,12 +252,22 @@ int physvib_live_impact_of(physvib_live live, const char* material, double x, do
     });
 }
 
+using namespace physvib;
+using namespace physvib::api;
+
 namespace {
+
+template <std::size_t Size>
+void copy(std::string_view text, char (&to)[Size]) {
+    const std::size_t length = std::min(text.size(), Size - 1);
+    std::copy_n(text.data(), length, to);
+    to[length] = '\0';
+}
 
 physvib_device deviceOf(std::string_view name, std::string_view about, int kind, int channels) {
     auto device = zeroed<physvib_device>();
-    copyText(name, device.name);
-    copyText(about, device.about);
+    copy(name, device.name);
+    copy(about, device.about);
     device.kind = kind;
     device.channels = channels;
     return device;
@@ -286,6 +304,9 @@ int physvib_live_devices(physvib_device* devices, int capacity, size_t size) {
     });
 }
 
+using namespace physvib;
+using namespace physvib::api;
+
 namespace {
 
 const char* holderOf(const MuteRequests& silence) noexcept {
@@ -294,14 +315,23 @@ const char* holderOf(const MuteRequests& silence) noexcept {
     return "physvib_live_silence";
 }
 
+physvib_renderer_settings settingsOf(const PhantomPanner& panner) {
+    physvib_renderer_settings settings;
+    physvib_renderer_settings_init(&settings, sizeof settings);
+    settings.law = static_cast<int>(panner.requestedLaw());
+    settings.exponent = panner.exponent();
+    settings.field_width_m = panner.fieldWidthMetres();
+    settings.field_height_m = panner.fieldHeightMetres();
+    writeLayout(panner.layout(), settings.layout);
+    return settings;
+}
+
 } // namespace
 
 int physvib_live_explain(physvib_live name, physvib_world world, char* text, size_t size) {
     return in(name, [&](Live& live) {
         const LiveStatus now = live.status();
-        physvib_renderer_settings settings;
-        physvib_renderer_settings_init(&settings, sizeof settings);
-        writePanner(live.session().panner(), settings);
+        const physvib_renderer_settings settings = settingsOf(live.session().panner());
         physvib_output_facts facts;
         physvib_output_facts_init(&facts, sizeof facts);
         facts.is_missing = live.output().isPlaying() ? 0 : 1;

@@ -41,64 +41,22 @@ public:
     Live& operator=(const Live&) = delete;
 
     /// Waits for device and sinks. Returns empty, or one line with the reason.
-    std::string open() {
-        std::promise<std::string> opened;
-        auto told = opened.get_future();
-        messages_ = std::thread{[this, opened = std::move(opened)]() mutable { run(std::move(opened)); }};
-        return told.get();
-    }
+    std::string open();
 
     /// Silences and closes the device, and waits for both. Empty, or why the session file is incomplete.
-    std::string end() {
-        isEnding_ = true;
-        if (messages_.joinable()) messages_.join();
-        return unsaved_;
-    }
+    std::string end();
 
     /// Any thread, after open().
     Session& session() noexcept { return rig_->session(); }
     AudioOutput& output() noexcept { return rig_->output(); }
-    LiveStatus status() const {
-        const std::lock_guard lock{statusMutex_};
-        return status_;
-    }
+    LiveStatus status() const;
     bool isOfThisProcess() const noexcept { return process_ == thisProcess(); }
     int stepsPerSecond() const noexcept { return rig_->settings().setup.stepsPerSecond; }
 
 private:
     static constexpr int watchesPerSecond = 50;
-    // The message thread, which owns the device.
-    void run(std::promise<std::string> opened) {
-        rig_.emplace(std::move(settings_), withNoDevice(systemAudioDrivers));
-        if (std::string error = rig_->open(); error.empty()) {
-            rig_->start();
-            watch();
-            opened.set_value({});
-            repeatEvery(std::chrono::milliseconds{1000 / watchesPerSecond}, [this] { return watch(); });
-            rig_->stop([](const PlayedEvent&) {});
-            unsaved_ = rig_->finish(false); // before closing the device, which may hang
-        } else {
-            opened.set_value(std::move(error));
-        }
-        rig_.reset(); // on the thread that opened the device
-    }
-    bool watch() {
-        rig_->takePlayed([](const PlayedEvent&) {});
-        if (ticks_++ % watchesPerSecond == 0) {
-            rig_->maintain();
-            trouble_ = rig_->trouble();
-        }
-        LiveStatus now{rig_->output().status(),
-                       rig_->session().status().render,
-                       rig_->output().sampleRateHz(),
-                       rig_->output().blockFrames(),
-                       rig_->output().device(),
-                       rig_->sinkStates(),
-                       trouble_};
-        const std::lock_guard lock{statusMutex_};
-        status_ = std::move(now);
-        return !isEnding_;
-    }
+    void run(std::promise<std::string> opened);
+    bool watch();
 
     const int process_ = thisProcess();
     RigSettings settings_;   // until the rig is created
@@ -112,39 +70,41 @@ private:
     std::thread messages_;
 };
 
-using Lives = Handles<Live, physvib_live, 3>;
+inline Handles<Live, 3>& lives() {
+    static auto* const all = new Handles<Live, 3>; // never destroyed: threads may outlive main
+    return *all;
+}
+
+inline std::uintptr_t nameOf(physvib_live live) noexcept { return reinterpret_cast<std::uintptr_t>(live); }
 
 /// The open devices. Any thread.
-std::vector<physvib_live> openLives();
+std::vector<std::uintptr_t> openLives();
 
 /// Calls `call(live)`, or returns the error for an unknown handle.
 template <class Call>
-auto in(physvib_live name, Call call) noexcept {
-    return Lives::all().in(name, [&](Live& live) -> decltype(call(live)) {
-        if (!live.isOfThisProcess())
+auto in(physvib_live name, Call call) noexcept -> decltype(call(std::declval<Live&>())) {
+    return guarded([&]() -> decltype(call(std::declval<Live&>())) {
+        const auto live = lives().use(nameOf(name));
+        if (!live) return unknownHandle();
+        if (!live->isOfThisProcess())
             return fail(PHYSVIB_ERROR_DEVICE, "live: the process that opened it plays on; expected a device "
                                               "that the child opens itself");
-        return call(live);
+        return call(*live);
     });
 }
 
 inline bool isLevel(double db) noexcept { return db >= -90.0 && db <= 0.0; } // not NaN
 inline float gainOf(double db) noexcept { return static_cast<float>(fromDecibels(db)); }
 
-/// Law, field and layout of a panner. Returns PHYSVIB_OK, or sets the error.
-inline int writePanner(const PhantomPanner& panner, physvib_renderer_settings& to) noexcept {
-    to.law = static_cast<int>(panner.requestedLaw()); // which is the law, unless parts choose
-    to.exponent = panner.exponent();
-    to.field_width_m = panner.fieldWidthMetres();
-    to.field_height_m = panner.fieldHeightMetres();
-    return writeLayout(panner.layout(), to.layout);
-}
-
-/// As takeRenderer; null: the defaults.
-inline bool takeRendererOrUsual(const physvib_renderer_settings* from, RendererSettings& to) noexcept {
-    physvib_renderer_settings usual;
-    physvib_renderer_settings_init(&usual, sizeof usual);
-    return takeRenderer(from == nullptr ? &usual : from, to);
+/// Reads renderer settings; null: the defaults. Sets the error and returns false if they are invalid.
+inline bool takeRenderer(const physvib_renderer_settings* from, RendererSettings& to) {
+    physvib_renderer_settings taken;
+    if (from == nullptr)
+        physvib_renderer_settings_init(&taken, sizeof taken);
+    else if (!take(from, taken, physvib_renderer_settings_init))
+        return false;
+    const std::string_view fault = convert(taken, to);
+    return fault.empty() || (nothingThere(fault), false);
 }
 
 } // namespace physvib::api

@@ -23,7 +23,7 @@ std::mutex& openMutex() {
 
 /// A device that is open, and which of its outputs are in use.
 struct Open {
-    physvib_live name;
+    std::uintptr_t name;
     std::string device;
     int firstOutput, outputs;
 
@@ -41,11 +41,25 @@ Opened& opened() {
     return *one;
 }
 
+int closeNamed(std::uintptr_t name) noexcept {
+    return guarded([&] {
+        const std::lock_guard lock{openMutex()};
+        auto live = lives().take(name);
+        if (!live) return unknownHandle();
+        {
+            const std::lock_guard listed{opened().mutex};
+            std::erase_if(opened().all, [name](const Open& open) { return open.name == name; });
+        }
+        if (!live->isOfThisProcess()) return live.release(), PHYSVIB_OK;
+        return resultOf(live->end(), PHYSVIB_ERROR_FILE);
+    });
+}
+
 // Libraries of devices have static objects. The exit handler is registered after they are created, so it runs
 // before they are destroyed.
 void closeAtExit() {
     static const int registered = std::atexit([] {
-        for (const physvib_live name : openLives()) physvib_live_close(name);
+        for (const std::uintptr_t name : openLives()) closeNamed(name);
     });
     static_cast<void>(registered);
 }
@@ -87,9 +101,9 @@ SessionSetup setupOf(const physvib_live_settings& s, const RendererSettings& ren
 
 } // namespace
 
-std::vector<physvib_live> api::openLives() {
+std::vector<std::uintptr_t> api::openLives() {
     const std::lock_guard lock{opened().mutex};
-    std::vector<physvib_live> names;
+    std::vector<std::uintptr_t> names;
     for (const Open& open : opened().all) names.push_back(open.name);
     return names;
 }
@@ -110,10 +124,13 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
         if (name == nullptr || device == nullptr)
             return nothingThere("live: expected a device and a place for it, found NULL");
         physvib_live_settings taken;
-        if (!takeOrBegin(settings, taken, physvib_live_settings_init)) return PHYSVIB_ERROR_ARGUMENT;
+        if (settings == nullptr)
+            physvib_live_settings_init(&taken, sizeof taken);
+        else if (!take(settings, taken, physvib_live_settings_init))
+            return PHYSVIB_ERROR_ARGUMENT;
         RendererSettings wanted;
         if (const auto fault = faultOf(taken); !fault.empty()) return nothingThere(fault);
-        if (!takeRendererOrUsual(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+        if (!takeRenderer(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
         const OutputNames outputs{device};
         if (const auto fault = channelFault(outputs.sinks, wanted.outputs()); !fault.empty())
             return nothingThere(fault);
@@ -136,35 +153,79 @@ int physvib_live_open(const char* device, const physvib_renderer_settings* rende
             all.output.listening.contacts = {taken.sound_output, taken.sound_output + 1};
         auto live = std::make_unique<Live>(std::move(all));
         if (const std::string error = live->open(); !error.empty()) return fail(PHYSVIB_ERROR_DEVICE, error);
-        std::vector<Open> open{{nullptr, live->status().device, taken.first_output, wanted.outputs()}};
-        if (taken.sound_output >= 0) open.push_back({nullptr, open[0].device, taken.sound_output, 2});
+        std::vector<Open> open{{0, live->status().device, taken.first_output, wanted.outputs()}};
+        if (taken.sound_output >= 0) open.push_back({0, open[0].device, taken.sound_output, 2});
         if (std::ranges::any_of(open, areOutputsInUse)) {
             live->end();
             return fail(PHYSVIB_ERROR_FULL, open[0].device + ": these outputs are open already; expected "
                                                              "others (first_output, sound_output), or that "
                                                              "device to be closed");
         }
-        const int code = Lives::all().add(std::move(live), name, "live: expected at most 256 open devices");
-        if (code != PHYSVIB_OK) return code;
+        const std::uintptr_t made = lives().add(std::move(live));
+        if (made == 0) return fail(PHYSVIB_ERROR_FULL, "live: expected at most 256 open devices");
         {
             const std::lock_guard listed{opened().mutex};
-            for (Open& one : open) opened().all.push_back((one.name = *name, one));
+            for (Open& one : open) opened().all.push_back((one.name = made, one));
         }
         closeAtExit();
+        *name = reinterpret_cast<physvib_live>(made);
         return PHYSVIB_OK;
     });
 }
 
-int physvib_live_close(physvib_live name) {
-    return guarded([&] {
-        const std::lock_guard lock{openMutex()};
-        auto live = Lives::all().take(name);
-        if (!live) return unknownHandle();
-        {
-            const std::lock_guard listed{opened().mutex};
-            std::erase_if(opened().all, [name](const Open& open) { return open.name == name; });
-        }
-        if (!live->isOfThisProcess()) return live.release(), PHYSVIB_OK;
-        return resultOf(live->end(), PHYSVIB_ERROR_FILE);
-    });
+int physvib_live_close(physvib_live live) { return closeNamed(nameOf(live)); }
+
+// The message thread of the live library, which owns the device.
+
+namespace physvib::api {
+std::string Live::open() {
+    std::promise<std::string> opened;
+    auto told = opened.get_future();
+    messages_ = std::thread{[this, opened = std::move(opened)]() mutable { run(std::move(opened)); }};
+    return told.get();
 }
+
+std::string Live::end() {
+    isEnding_ = true;
+    if (messages_.joinable()) messages_.join();
+    return unsaved_;
+}
+
+LiveStatus Live::status() const {
+    const std::lock_guard lock{statusMutex_};
+    return status_;
+}
+
+void Live::run(std::promise<std::string> opened) {
+    rig_.emplace(std::move(settings_), withNoDevice(systemAudioDrivers));
+    if (std::string error = rig_->open(); error.empty()) {
+        rig_->start();
+        watch();
+        opened.set_value({});
+        repeatEvery(std::chrono::milliseconds{1000 / watchesPerSecond}, [this] { return watch(); });
+        rig_->stop([](const PlayedEvent&) {});
+        unsaved_ = rig_->finish(false); // before closing the device, which may hang
+    } else {
+        opened.set_value(std::move(error));
+    }
+    rig_.reset(); // on the thread that opened the device
+}
+
+bool Live::watch() {
+    rig_->takePlayed([](const PlayedEvent&) {});
+    if (ticks_++ % watchesPerSecond == 0) {
+        rig_->maintain();
+        trouble_ = rig_->trouble();
+    }
+    LiveStatus now{rig_->output().status(),
+                   rig_->session().status().render,
+                   rig_->output().sampleRateHz(),
+                   rig_->output().blockFrames(),
+                   rig_->output().device(),
+                   rig_->sinkStates(),
+                   trouble_};
+    const std::lock_guard lock{statusMutex_};
+    status_ = std::move(now);
+    return !isEnding_;
+}
+} // namespace physvib::api

@@ -13,11 +13,26 @@ using namespace physvib::api;
 
 namespace {
 
-using Sessions = Handles<const SavedSession, physvib_session, 4>;
+Handles<const SavedSession, 4>& sessions() {
+    static auto* const all = new Handles<const SavedSession, 4>; // never destroyed: threads may outlive main
+    return *all;
+}
+
+/// Calls `call(session)`, or returns the error for an unknown handle.
+template <class Call>
+auto of(physvib_session name, Call call) noexcept -> decltype(call(std::declval<const SavedSession&>())) {
+    return guarded([&]() -> decltype(call(std::declval<const SavedSession&>())) {
+        const auto session = sessions().use(reinterpret_cast<std::uintptr_t>(name));
+        if (!session) return unknownHandle();
+        return call(*session);
+    });
+}
 
 int keep(SavedSession made, physvib_session* session) {
-    return Sessions::all().add(std::make_unique<const SavedSession>(std::move(made)), session,
-                               "sessions: expected at most 256");
+    const std::uintptr_t name = sessions().add(std::make_unique<const SavedSession>(std::move(made)));
+    if (name == 0) return fail(PHYSVIB_ERROR_FULL, "sessions: expected at most 256");
+    *session = reinterpret_cast<physvib_session>(name);
+    return PHYSVIB_OK;
 }
 
 // The limit is a day, because the session's worlds have to be simulated.
@@ -52,7 +67,7 @@ int physvib_session_create(const physvib_renderer_settings* renderer, const phys
             return nothingThere("session: expected events and a place for it, found NULL");
         *session = nullptr;
         RendererSettings wanted;
-        if (!takeRendererOrUsual(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
+        if (!takeRenderer(renderer, wanted)) return PHYSVIB_ERROR_ARGUMENT;
         std::vector<CollisionEvent> own;
         if (const auto fault = readSorted(events, count, own); !fault.empty()) return nothingThere(fault);
         if (!isWithinADay(lengthNs)) return nothingThere("length: expected nothing to a day");
@@ -67,10 +82,12 @@ int physvib_session_create(const physvib_renderer_settings* renderer, const phys
     });
 }
 
-int physvib_session_free(physvib_session session) { return Sessions::all().remove(session); }
+int physvib_session_free(physvib_session session) {
+    return sessions().remove(reinterpret_cast<std::uintptr_t>(session)) ? PHYSVIB_OK : unknownHandle();
+}
 
 int physvib_session_save(physvib_session name, const char* path) {
-    return Sessions::all().in(name, [&](const SavedSession& session) {
+    return of(name, [&](const SavedSession& session) {
         if (path == nullptr) return nothingThere("session: expected a path, found NULL");
         const std::string text = sessionJson(session, std::filesystem::path{path}.parent_path());
         // refuses to write a file that could not be loaded
@@ -81,25 +98,31 @@ int physvib_session_save(physvib_session name, const char* path) {
 }
 
 physvib_int64 physvib_session_length_ns(physvib_session name) {
-    return Sessions::all().in(name,
-                              [](const SavedSession& session) -> physvib_int64 { return session.lengthNs; });
+    return of(name, [](const SavedSession& session) -> physvib_int64 { return session.lengthNs; });
 }
 
 int physvib_session_get_renderer(physvib_session name, physvib_renderer_settings* renderer) {
-    return Sessions::all().in(name, [&](const SavedSession& session) {
+    return of(name, [&](const SavedSession& session) {
         physvib_renderer_settings told;
         if (!take<physvib_renderer_settings>(renderer, told, physvib_renderer_settings_init))
             return PHYSVIB_ERROR_ARGUMENT;
+        told.size = renderer->size;
         told.channels = session.channels;
         told.limiter = session.limiterEnabled ? 1 : 0;
-        if (const int code = writePanner(session.panner, told); code != PHYSVIB_OK) return code;
-        return begin(renderer, renderer->size, told);
+        told.law = static_cast<int>(session.panner.requestedLaw()); // which is the law, unless parts choose
+        told.exponent = session.panner.exponent();
+        told.field_width_m = session.panner.fieldWidthMetres();
+        told.field_height_m = session.panner.fieldHeightMetres();
+        if (const int code = writeLayout(session.panner.layout(), told.layout); code != PHYSVIB_OK)
+            return code;
+        std::memcpy(renderer, &told, told.size);
+        return PHYSVIB_OK;
     });
 }
 
 physvib_int64 physvib_session_events(physvib_session name, physvib_int64 endNs, physvib_event* events,
                                      physvib_int64 capacity) {
-    return Sessions::all().in(name, [&](const SavedSession& session) -> physvib_int64 {
+    return of(name, [&](const SavedSession& session) -> physvib_int64 {
         if (capacity < 0 || (capacity > 0 && events == nullptr))
             return nothingThere("events: expected a place for them");
         if (!isWithinADay(endNs)) return nothingThere("end: expected nothing to a day");
@@ -111,7 +134,7 @@ physvib_int64 physvib_session_events(physvib_session name, physvib_int64 endNs, 
 }
 
 int physvib_session_render(physvib_session name, int rateHz, physvib_int64 frames, float* samples) {
-    return Sessions::all().in(name, [&](const SavedSession& session) {
+    return of(name, [&](const SavedSession& session) {
         if (!isSampleRate(rateHz)) return nothingThere("rate: expected 5000 to 192000 Hz");
         if (frames < 0 || frames > rateHz * std::int64_t{86400} || (frames > 0 && samples == nullptr))
             return nothingThere("render: expected a place for at most a day of samples");
