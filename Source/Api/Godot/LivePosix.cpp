@@ -2,28 +2,9 @@
 #include "Api/Godot/Outputs.h"
 
 #include <algorithm>
-#ifndef _WIN32
 #include <dlfcn.h>
-#endif
 
 namespace physvib::godot {
-#ifdef _WIN32 // for which libphysvib-live is not built: its devices are refused, what Godot drives plays on
-
-Live::~Live() = default;
-
-std::string Live::open(const std::string& device, const physvib_layout&, double, double, double,
-                       const std::string&) {
-    return "outputs: " + device +
-           ": expected controllers, phone or osc:HOST:PORT, because other devices are not for Windows";
-}
-
-void Live::setLevel(double) {}
-
-void Live::play(physvib_world, const physvib_event&) {}
-
-std::vector<double> Live::left(int) const { return {}; }
-
-#else
 namespace {
 struct Library {
     std::string missing; ///< why it could not be loaded
@@ -104,6 +85,5 @@ std::vector<double> Live::left(int actuators) const {
     }
     return peaks;
 }
-#endif
 
 } // namespace physvib::godot
