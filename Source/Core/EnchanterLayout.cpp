@@ -86,7 +86,10 @@ bool hasParts(const ActuatorLayout& layout) noexcept {
 
 bool layoutPreset(std::string_view name, ActuatorLayout& layout) noexcept {
     for (const Preset& preset : presets)
-        if (preset.name == name) return layout = layoutOf(preset), true;
+        if (preset.name == name) {
+            layout = layoutOf(preset);
+            return true;
+        }
     for (const BodyLayout& body : bodyLayouts)
         if (body.name == name) {
             layout = {body.widthMetres, body.heightMetres, static_cast<int>(body.places.size()), {}};

@@ -105,7 +105,10 @@ std::string AlsaPcm::open(int channels, int& rateHz, int& blockFrames) {
     fault = chooseHardware(channels, rate, period);
     if (fault >= 0) fault = chooseSoftware(period);
     if (fault >= 0) fault = alsa_.pcm_prepare(pcm_);
-    if (fault < 0) return close(), alsa_.strerror(fault);
+    if (fault < 0) {
+        close();
+        return alsa_.strerror(fault);
+    }
     channels_ = channels;
     rateHz = static_cast<int>(rate);
     blockFrames = static_cast<int>(period);

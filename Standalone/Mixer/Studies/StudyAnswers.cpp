@@ -160,8 +160,9 @@ public:
     std::string keys() const override { return "1, 2: answer.  Enter: confirm."; }
     bool handleKey(const juce::KeyPress& key) override {
         const int i = static_cast<int>(key.getTextCharacter() - '1');
-        if (isEnabled() && i >= 0 && i < static_cast<int>(parts_.size())) return choose(nth(parts_, i)), true;
-        return moveFocus(*this, key);
+        if (!isEnabled() || i < 0 || i >= static_cast<int>(parts_.size())) return moveFocus(*this, key);
+        choose(nth(parts_, i));
+        return true;
     }
     void resized() override {
         const int count = static_cast<int>(buttons_.size());
