@@ -995,7 +995,7 @@ void MixerWindow::newScene(SceneGround ground) {
     view_->world().drawing().use(DrawTool::ball);
 }
 
-// Without the address of a page, it offers to serve the page, or a movie or scene file.
+// Without the address of a page, it offers to start a server, or a movie or scene file.
 void MixerWindow::share(bool isElsewhere) {
     const auto link = pageLink(model_->mix(), model_->world().drawing().drawn());
     if (!link) return say(utf8(link.error));
