@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Opens the device, checks devices that may disappear and return, and heals mixer states in which two strips
-// have one output, as files may have them. Peak meters that fall, held peaks, and the decimated samples.
+// Opens the device, checks devices that may disappear and return, and reports strips without an output.
+// Computes falling peaks, held peaks, and the decimated samples of the spectrum.
 #include "Mixer/Model/MixerDevice.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Mixer/Model/MixerModel.h"
@@ -294,7 +294,7 @@ float MixerSignals::read(MixerMoment& moment, int enchanters, const Played& play
     return loudest;
 }
 
-// The tap lies before the master, which mutes.
+// The samples are those before the master gain, so they are there while the output is silenced.
 void MixerSignals::measure(const float* const* block, int frames, MixerMoment& moment, int enchanters) {
     scope_.add(block, enchanters, frames);
     spectrum_.add(block, enchanters, frames);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The output of the mixer: the chosen device with its additional sinks and errors, who uses which of its
-// outputs, and the vibration exposure; what is displayed of it: a snapshot of the session, peaks, and traces
-// of the samples (the last second, their spectrum, and the whole scene run).
+// The output of the mixer: the chosen device with its sinks (MixerDevice), its outputs for ears and triggers
+// (MixerListening), and the vibration exposure (MixerExposure). MixerSignals reads the samples for display:
+// peaks, the last second, its spectrum, and the whole scene run.
 #pragma once
 #include "Core/Limits.h"
 #include "Live/Devices/AudioOutput.h"
@@ -57,8 +57,8 @@ struct DeviceChoice {
     std::vector<int> monitor{};       ///< its outputs for left and right ear, from 0; empty: no monitor
     double monitorDb = safeContactDb; ///< as ListeningSettings::contactDb
     int marker = -1;                  ///< its marker output, from 0; -1: none
-    bool isHeadphones = false;        ///< its first two outputs, L and R, are the ears, in place of actuators
-    std::vector<int> beforeEars{};    ///< then: the outputs of the strips before; -1: none
+    bool isHeadphones = false;        ///< its first two outputs are headphones (L, R), not actuators
+    std::vector<int> beforeEars{};    ///< the outputs that the strips had before them; -1: none
 
     static constexpr int ears = 2;
     /// Outputs of listeners and measuring devices, which are not given to actuators.
@@ -67,7 +67,7 @@ struct DeviceChoice {
         outputs.push_back(marker);
         return outputs;
     }
-    /// As the mixer's strips name an output, from 0.
+    /// Name of an output, counted from 0, as strips show it.
     std::string nameOf(int output) const {
         if (isHeadphones && output < ears) return output == 0 ? "L" : "R";
         return "out " + std::to_string(output + 1);
@@ -86,7 +86,7 @@ struct DeviceChoice {
     }
 };
 
-/// Both of them. Any thread.
+/// The smallest range that contains both. Any thread.
 inline SampleRange united(const SampleRange& a, const SampleRange& b) {
     return {std::min(a.lowest, b.lowest), std::max(a.highest, b.highest)};
 }
@@ -130,8 +130,8 @@ public:
         return nth(nth(lanes_, channel), (newest_ + 1 + index) % columns);
     }
 
-    /// What a trace of so many pixels has at pixel `x`: all of its columns, and the one before, since half a
-    /// wave of 400 Hz is a column.
+    /// Minimum and maximum at pixel `x` of a trace that is `width` pixels wide: of the pixel's columns and
+    /// the one before, since a column is half a wave of 400 Hz.
     SampleRange shown(int channel, int x, int width) const {
         const auto columnOf = [width](int pixel) { return pixel * (columns - 1) / std::max(1, width); };
         const int first = columnOf(x), last = std::max(first, columnOf(x + 1) - 1);
@@ -243,7 +243,7 @@ private:
     double columnSeconds_ = firstSeconds, seconds_ = 0.0;
 };
 
-/// Message thread.
+/// Reads the samples of the output for display. Message thread.
 class MixerSignals {
 public:
     SignalTap& tap() noexcept { return tap_; } ///< filled by the output
@@ -303,9 +303,9 @@ public:
     std::string hear(const ListeningSettings& ofStudy);
     void endStudy();
 
-    /// Settings of a study only; applied first, because the actuators have priority.
+    /// Drops monitor and markers until hearWanted(), because actuators have priority. Returns what remains.
     const ListeningSettings& ofStudyOnly() { return sent_ = ofStudy_.value_or(ListeningSettings{}); }
-    std::string hearWanted(); ///< then applies the settings for which there are outputs
+    std::string hearWanted(); ///< applies what outputs are free for; empty, or an error
 
     bool isFree(int output) const;
 
@@ -321,7 +321,7 @@ private:
     ListeningSettings sent_;
 };
 
-/// Message thread.
+/// The chosen device, its sinks and the outputs of the strips. Message thread.
 class MixerDevice {
 public:
     /// Both references outlive it. `onChange` as for MixerListening.
@@ -334,12 +334,12 @@ public:
     /// Opens a device. Empty, or an error, which Rig::troubles() has too.
     std::string open(const DeviceChoice& choice);
 
-    /// The chosen device and the available ones. outputs(): number of its outputs.
+    /// The chosen device, the available ones, and the number of outputs of the open one.
     const DeviceChoice& choice() const noexcept { return choice_; }
     const AudioDrivers& drivers() const noexcept { return drivers_; }
     int outputs() const { return rig_.output().deviceOutputs(); }
-    bool isNone() const; ///< what is open is no device: what happens is seen alone
-    /// False: it has no output that plays, so nothing of it is felt. Of no device at all, all are seen.
+    bool isNone() const; ///< no real device is open, so nothing can be felt
+    /// Whether the actuator has an output that plays. Without a device all have, so that they are shown.
     bool isPlayed(std::size_t actuator) const;
 
     MixerListening& listening() noexcept { return listening_; }
@@ -379,8 +379,8 @@ private:
 /// Sets the strips' outputs to those that are played, by actuator. Any thread.
 void showPlayedOutputs(const std::vector<int>& played, std::span<Strip> strips);
 
-/// Leaves to listeners and measuring devices what they use: strips from number `first` on, which are new, get
-/// other outputs. Headphones have two. Returns the strips without one. Any thread.
+/// Gives new strips, from number `first` on, outputs that no listener and no measuring device uses;
+/// headphones have two. Returns the strips for which there is none. Any thread.
 std::vector<std::size_t> placeNew(const DeviceChoice& choice, std::span<Strip> strips, std::size_t first);
 
 /// If the layout has more actuators than `outputs`, replaces it by a preset that fits. A Pico gets its own
@@ -393,9 +393,9 @@ void fitLayoutTo(int outputs, Mix& mix, std::string_view device = {});
 std::string useHeadphones(MixerModel& model, DeviceChoice choice,
                           std::optional<std::vector<int>> before = {});
 
-/// After headphones: strips that are as useHeadphones() left them get the outputs of before, if the device
-/// has them, and those that came meanwhile a free one; the level stays low. takeOffHeadphones(): strips from
-/// number `first` on; any thread. Message thread.
+/// After headphones: strips whose outputs useHeadphones() has set get back their former ones, if the device
+/// has them, and new strips a free one; the level stays low. takeOffHeadphones() does so from strip `first`
+/// on, on any thread; leaveHeadphones() for the model, on the message thread.
 void takeOffHeadphones(const DeviceChoice& choice, int outputs, std::span<Strip> strips,
                        std::size_t first = 0);
 void leaveHeadphones(MixerModel& model, const DeviceChoice& ears);

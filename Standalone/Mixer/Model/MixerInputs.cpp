@@ -245,7 +245,7 @@ bool isClipDrag(const juce::StringArray& files) {
     return !files.isEmpty() && !files[0].endsWithIgnoreCase(".json");
 }
 
-// What is said of the file itself where nothing else is.
+// A clip that has no note of its own is reported with this one.
 void MixerStrikes::read(PlainMessage clip, std::string said) {
     reader_.addJob([this, clip = std::move(clip), said = std::move(said)] {
         auto result = strike(clip);

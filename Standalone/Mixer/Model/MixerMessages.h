@@ -58,14 +58,14 @@ struct MixerAct {
     std::function<void()> run;
 };
 
-constexpr const char* savedLabel = "saved"; ///< of the news that a file was written, which do not last
-constexpr const char* triedLabel = "tried"; ///< of what was tried in vain, with a button: it does not last
+constexpr const char* savedLabel = "saved"; ///< of messages that a file was written; they do not persist
+constexpr const char* triedLabel = "tried"; ///< of failed attempts with a button; they do not persist
 
 struct MixerMessage {
     juce::String words;  ///< one line; empty: none
     bool isNews = false; ///< a success; else an error
     MixerAct act{};
-    juce::String label{}; ///< what it is about: there is one message of a label; empty: nothing that lasts
+    juce::String label{}; ///< its subject, of which there is one message at a time; empty: none
 
     /// It stays until it is answered, dismissed or withdrawn: an error that still stands, an offer.
     bool lasts() const {
@@ -82,7 +82,7 @@ public:
         : onChange_{std::move(onChange)} {}
 
     const MixerMessage& shown() const noexcept { return shown_; }
-    int told() const noexcept { return told_; } ///< how often one was shown, or told again
+    int told() const noexcept { return told_; } ///< number of messages shown so far, repeated ones included
 
     /// Replaces the message, which waits if it lasts. Without words the next one that waits is shown.
     void show(MixerMessage message);
@@ -102,8 +102,8 @@ private:
     std::deque<MixerMessage> waiting_;
 };
 
-/// An impact in words: material, level and place. Any thread.
-/// Index of the material with this frequency and decay; -1: none.
+/// Texts about an impact. Any thread.
+/// Index of the material that the impact sounds like; -1: none.
 int materialOf(const Scene& scene, const CollisionEvent& hit);
 /// The material's name, or "hit".
 juce::String materialName(const Scene& scene, const CollisionEvent& hit);
@@ -113,7 +113,7 @@ struct StrongestActuator {
     double levelG = 0.0; ///< there, by full scale and master level; before strip and limiter
 };
 StrongestActuator strongestOf(const MixerModel& model, const CollisionEvent& hit);
-/// Of a hit that nobody feels: what the actuator that would play most of it lacks.
+/// Why a hit is not felt: what the actuator with the largest gain lacks, such as "A is muted".
 juce::String whyOnlySeen(const MixerModel& model, const CollisionEvent& hit);
 
 /// "at the bottom left"
@@ -124,10 +124,10 @@ juce::String placeText(const Scene& scene, const CollisionEvent& hit);
 void hintOnMaterial(MixerModel& model, int material);
 void hintOnBody(MixerModel& model, const std::string& body);
 
-/// What a session was played with and the mixer has not: a message, or empty. Any thread.
+/// A message on what a session was played with and the mixer lacks; empty: nothing. Any thread.
 juce::String lackingOf(const SavedSession& session);
 
-/// Why these levels let nothing be felt, whatever plays; empty: they do not. Any thread.
+/// Why the levels, mutes and outputs let nothing be felt; empty: something can be. Any thread.
 juce::String whySilent(const MixerModel& model);
 void hintOnLevels(MixerModel& model, const juce::String& why);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the mixer keeps of what it plays: recordings with their events, fader moves as lanes, the last
-// contacts, and the folder for the user's files.
+// Keeps what the mixer plays: recordings with their events (MixerRecording), fader moves as gain lanes
+// (MixerLanes), the last contacts (RecentContacts). UserFolder finds the folder for the user's files.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Io/Result.h"
@@ -163,7 +163,7 @@ public:
     /// The same, created if missing; or one line with the reason.
     Result<juce::File> make() const;
 
-    /// A file in it: no file has its name with any of `endings`, such as ".wav". It has the first of them.
+    /// A new file in it with the first of `endings`, such as ".wav"; its name is free with all of them.
     Result<juce::File> fresh(const juce::String& name, const juce::StringArray& endings) const;
 
 private:

@@ -15,12 +15,12 @@ public:
     Edit(MixerHistory& history, SceneEdit edit)
         : history_{history}
         , edit_{std::move(edit)} {}
-    // refused: JUCE keeps no step
+    // false if the session refuses it, so that JUCE keeps no step
     bool perform() override {
         const bool isDone = run(true);
         return std::exchange(isRepeated_, true) || isDone;
     }
-    bool undo() override { // of one that fails JUCE would forget all of them
+    bool undo() override { // always true: JUCE would forget all steps if one failed
         if (!run(false)) world().onFault_("Undo: " + std::exchange(world().refused_, {}));
         return true;
     }
@@ -43,7 +43,7 @@ private:
         const auto *before = std::get_if<Turned>(&here.front()), *after = std::get_if<Turned>(&there.front());
         return before != nullptr && after != nullptr && before->material == after->material;
     }
-    // To the world at once: in one that is slow each would wait for a step, and Esc for all of them.
+    // Submits all actions at once: in a slow world each would wait for a step, and Esc for all of them.
     bool run(bool isForth) {
         MixerWorld& world = this->world();
         const SceneDrawing before = world.drawing_;
@@ -163,7 +163,7 @@ std::vector<CollisionEvent> contactsOf(const MixerModel& model) {
     return events;
 }
 
-/// All but the world: what is compared.
+/// `mix` with the world of `now`: only the rest is compared.
 Mix withWorldOf(Mix mix, const Mix& now) {
     mix.scene = now.scene;
     mix.seed = now.seed;
@@ -273,7 +273,7 @@ double energyOf(const Mix& mix, std::span<const CollisionEvent> events) {
 
 bool MixerCompare::isOn() const { return other_ && model_.undoManager().getRedoDescription() != compareStep; }
 
-// A level that the user has set meanwhile is meant as it is.
+// Without the lowering by toggle(), unless the user has set the level since.
 Mix MixerCompare::own() const {
     Mix mix = model_.mix();
     if (mix.levelDb == setDb_) mix.levelDb = std::min(0.0, mix.levelDb + loweredDb_);

@@ -45,14 +45,12 @@ private:
     std::int64_t sessionNs_ = 0, behindNs_ = 0;
 };
 
-/// The undo steps. They act on the model that has them now, which may be another than made them: one with
-/// another output goes on with them. Message thread.
+/// The undo steps. They act on `model`, which may be another than the one that made them: a model with
+/// another output takes them over. Message thread.
 struct MixerHistory {
     MixerModel* model = nullptr;
-    std::vector<std::pair<std::shared_ptr<const Scene>, std::shared_ptr<const Scene>>> drawn; ///< a scene,
-                                                                                              ///< and the
-                                                                                              ///< same as
-                                                                                              ///< drawn later
+    /// A scene, and the same scene as drawn later.
+    std::vector<std::pair<std::shared_ptr<const Scene>, std::shared_ptr<const Scene>>> drawn;
     juce::UndoManager undo{1000, 30};
 
     bool isSame(const std::shared_ptr<const Scene>& a, const std::shared_ptr<const Scene>& b) const {
@@ -67,7 +65,7 @@ private:
     }
 };
 
-/// Message thread.
+/// Sends user input and edits to the session's world. Message thread.
 class MixerWorld {
 public:
     /// All references outlive it. `onInput` is called after each input to the world, with whether it changes

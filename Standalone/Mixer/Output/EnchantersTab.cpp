@@ -9,7 +9,7 @@ namespace {
 
 constexpr int enchanterRowPixels = 34;
 
-// Compares geometry, not names; -1: not a preset.
+// Index of the preset with this geometry, whatever its name; -1: none.
 int presetOf(const EnchanterLayout& layout) {
     const auto isThat = [&layout](std::string_view name) {
         return isSame(presetLayout(name).geometry, layout);

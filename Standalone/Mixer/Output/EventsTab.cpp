@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A list that is brought up to date a few times a second, and under it what can be done with what is chosen.
+// Updates the list a few times a second; saves selected contacts, or writes them to the files of a drag.
 #include "Mixer/Output/EventsTab.h"
 #include "Core/NameNumbers.h"
 #include "Io/Text/NameList.h"
@@ -68,14 +68,14 @@ juce::String placeNumbers(const CollisionEvent& hit) {
     return number(hit.x, 2) + ", " + number(hit.y, 2) + " m";
 }
 
-/// The first begins the file; distances stay.
+/// Sorts the hits and shifts their times, so that the first is at 0.
 void startAtFirst(std::vector<CollisionEvent>& hits) {
     std::ranges::stable_sort(hits, {}, &CollisionEvent::timeNs);
     const std::int64_t first = hits.front().timeNs;
     for (CollisionEvent& hit : hits) hit.timeNs -= first;
 }
 
-/// A new one: of another's of that name, nobody knows what it is.
+/// Creates a folder for this user alone. False: that failed, or the folder existed, maybe of another user.
 bool isMadeForUsAlone(const std::filesystem::path& folder) {
     std::error_code fault;
     if (!std::filesystem::create_directory(folder, fault)) return false;
@@ -128,7 +128,7 @@ EventsTab::EventsTab(MixerModel& model)
     describeChoice();
 }
 
-// What is under a pressed mouse stays there.
+// While a mouse button is down, the rows stay.
 void EventsTab::refresh(const MixerMoment& moment) {
     const double now = nowMs();
     if (moment.session.render.played == seen_ || now - shownAtMs_ < showMs || list_.isMouseButtonDown(true))
@@ -138,8 +138,7 @@ void EventsTab::refresh(const MixerMoment& moment) {
     listRecent();
 }
 
-// While something is chosen nothing leaves the list, but what comes to be far below; what is chosen never
-// does.
+// While contacts are selected, old ones stay in the list, up to its limit; selected ones stay beyond it.
 void EventsTab::listRecent() {
     const auto& recent = model_.recent().newestFirst();
     std::vector<RecentContact> shown(recent.begin(), recent.end());
@@ -154,7 +153,7 @@ void EventsTab::listRecent() {
         list_.updateContent();
         listChosen();
     }
-    if (const int now = rowOf(last_); before >= 0 && now >= 0) // and where it is seen
+    if (const int now = rowOf(last_); before >= 0 && now >= 0) // it stays where it is seen
         list_.getViewport()->setViewPosition(0, list_.getViewport()->getViewPositionY() +
                                                     (now - before) * eventRowPixels);
     describeChoice();
@@ -326,7 +325,7 @@ juce::StringArray EventsTab::filesToDrag() {
     return addresses;
 }
 
-// Hits by the door of `physvib export`, or as samples.
+// Writes clip formats as `physvib export` does, or samples.
 
 Result<WrittenHits> writeHits(std::vector<CollisionEvent> hits, const Mix& mix, int sampleRateHz,
                               const juce::File& path) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tab that lists the played contacts, newest first; selected ones can be dragged to another program or saved.
+// Tab that lists the played contacts, newest first; writes selected ones to files, also for drags to others.
 #pragma once
 #include "Formats/ClipFile.h"
 #include "Mixer/Widgets/Parts.h"
@@ -7,7 +7,6 @@
 
 namespace physvib {
 
-/// Exports selected impacts to files, and keeps temporary files of drags for other programs.
 /// File extensions for impacts: samples, or a clip format.
 inline const juce::StringArray& hitEndings() {
     static const juce::StringArray all = [] {

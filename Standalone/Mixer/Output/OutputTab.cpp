@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Controls for the device, and its status text.
+// Controls of the device, of monitor and triggers, and of OSC, with their status.
 #include "Mixer/Output/OutputTab.h"
 #include "Live/Devices/AudioDevice.h"
 #include "Mixer/Widgets/Cards.h"
@@ -18,7 +18,7 @@ struct Cell {
     juce::Component& box;
 };
 
-/// In columns of one width.
+/// Places names and boxes in columns of one width, from the top of `area`, which is reduced.
 void placeGrid(juce::Rectangle<int>& area, const std::vector<Cell>& cells) {
     constexpr int columns = 3;
     const int wide = (area.getWidth() - (columns - 1) * gap) / columns;
@@ -44,7 +44,7 @@ constexpr std::array<PhoneHold, 4> phoneHolds{
     {{"up", 0.0}, {"left", 90.0}, {"down", 180.0}, {"right", -90.0}}};
 constexpr int nobodyId = 1, knownReceiverId = 2, otherReceiverId = 3; // item ids of the list of receivers
 
-/// Where others reach this computer, in place of 0.0.0.0, which nobody can type in.
+/// Addresses at which others reach this computer, in place of 0.0.0.0, and the port.
 juce::String reachedAt(const std::string& address) {
     const auto words = utf8(address), port = words.fromLastOccurrenceOf(":", true, false);
     if (!words.startsWith("0.0.0.0")) return words;
@@ -107,7 +107,7 @@ void OutputTab::findSinks() {
     for (const SinkKind& kind : sinkKinds()) sinks_.push_back(kind.places());
 }
 
-// What can play beside the device: what is not there is greyed, and says so.
+// Lists the sinks that can play beside the device; missing ones are grey, with a text.
 void OutputTab::listSinks() {
     rows_.clear();
     device_.addSectionHeading("Beside it");

@@ -8,13 +8,14 @@
 
 namespace physvib {
 
-/// List of names and values in columns, fewer where they are narrow; redraws only on changes.
+/// A line of a FactList.
 struct Fact {
     juce::String name, value;
     Shade shade = Shade::text;
     bool operator==(const Fact&) const = default;
 };
 
+/// List of names and values in columns, fewer where they are narrow; redraws only on changes.
 class FactList final : public ReadOut {
 public:
     FactList(const juce::String& title, int maxColumns);
@@ -61,7 +62,7 @@ public:
     void refresh(const MixerMoment& moment) override;
     void resized() override;
     int minHeight(int width) const override {
-        constexpr int controls = 18 + rowHeight + 3 * (28 + rowHeight) + 12;
+        constexpr int controls = 18 + rowHeight + 3 * (28 + rowHeight) + 12; // as resized() places them
         return controls + facts_.heightFor(width);
     }
     void visibilityChanged() override {
@@ -104,8 +105,8 @@ private:
     std::unique_ptr<juce::TextButton> scan_;
     FactList facts_{"What follows from it", 1};
     std::vector<AudioDeviceName> found_;
-    std::string worn_; // what headphones are on: the device last played, else the first that has two outputs
-    std::vector<std::vector<SinkPlace>> sinks_; // that are there, of each entry of the table of sinks
+    std::string worn_; // device of the item Headphones: the last one in use, else the first with two outputs
+    std::vector<std::vector<SinkPlace>> sinks_; // available ones of each kind, in the order of sinkKinds()
     std::vector<SinkRow> rows_;
     std::ptrdiff_t ready_ = 0; // how many sinks are there
     bool isScanned_ = false;

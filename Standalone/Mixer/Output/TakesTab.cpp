@@ -125,7 +125,7 @@ bool hasNoRows(std::string_view list) {
            }) <= 1;
 }
 
-/// Of a take that felt nothing there are none.
+/// Reads the events of a take; a list without rows is valid: nothing was played.
 Result<EventList> eventsOfTake(const juce::File& list) {
     const std::string path = pathOf(list);
     auto read = loadEventsCsv(path);
@@ -134,7 +134,7 @@ Result<EventList> eventsOfTake(const juce::File& list) {
     return text && hasNoRows(text.value) ? Result<EventList>{EventList{}} : read;
 }
 
-/// With the events in it; if those of the take cannot be read, nothing is written.
+/// Writes the part with its events. Empty, or an error; unreadable events prevent it.
 std::string exportTakePart(const juce::File& take, juce::Range<double> seconds, const juce::File& to) {
     const bool hasList = eventsOf(take).existsAsFile();
     auto list = hasList ? eventsOfTake(eventsOf(take)) : Result<EventList>{EventList{}};
@@ -156,12 +156,12 @@ constexpr double sameLength = 1e-6; // as written in text
 /// Below the takes, for what belongs to them and is not listed.
 juce::File partsFolder(const juce::File& take) { return take.getSiblingFile("parts"); }
 
-/// Of the part that was chosen of it: the recording and its events stay as they are.
+/// File with the selected part of a take: the recording and its events stay unchanged.
 juce::File fileOf(const juce::File& take) {
     return partsFolder(take).getChildFile(take.getFileNameWithoutExtension() + ".json");
 }
 
-/// All of the take needs no file. Empty, or one line.
+/// Writes that file, or deletes it if all of the take is selected. Empty, or one line.
 std::string keepPart(const juce::File& take, double seconds, juce::Range<double> part) {
     const auto file = fileOf(take);
     if (part == juce::Range{0.0, seconds})

@@ -25,7 +25,7 @@ public:
         if (std::exchange(played_, seconds) != seconds) repaint();
     }
     std::function<void(juce::Range<double> part)> onChange;
-    std::function<void()> onEnd; ///< after one or more changes: no more come
+    std::function<void()> onEnd; ///< after the last change of a drag, a key or a click
 
     void paint(juce::Graphics& g) override;
     void mouseDown(const juce::MouseEvent& e) override {
@@ -73,11 +73,11 @@ public:
     void look(); ///< reads the folder again
     int chosen() const { return list_.getSelectedRow(); }
     void choose(int row) { list_.selectRow(row); }
-    /// On the device, each channel on the actuator of its number, as a clip of the session; one that plays
-    /// stops, by the same call for good.
+    /// Plays the selected take as a clip of the session, each channel on the actuator of its number. Stops
+    /// what plays; the same take does not start again then.
     void play();
-    /// With the events beside it, of a trimmed take that part. What replaces a recording replaces its events;
-    /// a list alone is left, and told.
+    /// Copies the take, or its selected part, with its events. Those of a replaced recording are deleted; a
+    /// list of events without a recording is not replaced, which is reported as an error.
     void exportTo(const juce::File& file);
     /// Cuts the silence at both ends, or takes all of a trimmed take again. The recording stays as it is.
     void trim();
@@ -121,8 +121,8 @@ private:
 /// thread.
 juce::Range<double> soundingPart(const std::vector<float>& levels, double seconds);
 
-/// The part of a take that was kept in a small file below it, s; all of it if none was, or one of another
-/// length. Message thread.
+/// The selected part of a take, s, from its file in the folder `parts`; all of it if there is none, or one
+/// for another length. Message thread.
 juce::Range<double> keptPart(const juce::File& take, double seconds);
 
 } // namespace physvib

@@ -234,7 +234,7 @@ void StripsPanel::focusOfChildComponentChanged(FocusChangeType) {
         viewport_.setViewPosition(std::max(0, at.getCentreX() - viewport_.getViewWidth() / 2), 0);
 }
 
-// Whole strips stand at the left edge, whatever moved them; at the end, whole ones at the right.
+// Scrolls by whole strips: one begins at the left edge, or at the end of the row, one ends at the right.
 void StripsPanel::Row::visibleAreaChanged(const juce::Rectangle<int>& area) {
     const int most = getViewedComponent() != nullptr ? getViewedComponent()->getWidth() - area.getWidth() : 0;
     const int whole = step > 0 ? (area.getX() + step / 2) / step * step : area.getX();

@@ -8,8 +8,8 @@ namespace physvib {
 
 class StripView final : public StripParts, public juce::FileDragAndDropTarget {
 public:
-    /// They share the panel; from `easyWidth` on buttons as wide as a pointer needs are beside the fader,
-    /// from `wholeWidth` on with the scale's figures.
+    /// In pixels; strips share the width of the panel. From `easyWidth` on, wide buttons are beside the
+    /// fader, from `wholeWidth` on, the figures of the scale are shown, too.
     static constexpr int width = 78, easyWidth = 108, wholeWidth = 128, mostWidth = 140;
 
     StripView(MixerModel& model, int strip);
@@ -75,7 +75,7 @@ public:
     explicit StripsPanel(MixerModel& model);
     void mixChanged();
     void refresh(const MixerMoment& moment);
-    int widthFor(int strip) const; ///< with all strips in sight, each so wide
+    int widthFor(int strip) const; ///< at which all strips of that width are visible
     /// Opens the list of outputs of a strip.
     void showOutputs(int enchanter);
     void paint(juce::Graphics& g) override { drawPanel(g, *this); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finds the window's host of cards, and closes a card before its answer is used.
+// Lays out cards, finds the host that shows them, and closes a card before its answer is used.
 #include "Mixer/Widgets/Cards.h"
 #include "Io/Text/QrCode.h"
 #include "Scene/SceneValidation.h"
@@ -11,7 +11,7 @@ CardHost* hostOf(juce::Component& from) { return from.findParentComponentOfClass
 
 using From = juce::Component::SafePointer<juce::Component>;
 
-/// Later, because the click of the card's button is still being handled.
+/// Closes the card after the click of its button was handled, then calls `then`.
 void closeThen(const From& from, std::function<void()> then) {
     if (from == nullptr) return;
     later(*from, [then = std::move(then)](juce::Component& asking) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cards over the window: a choice of files, a question, the progress of a file that is made; how panels ask
-// by them, and what keeps the keyboard and the mouse from what is behind.
+// Cards over the window: a choice of files, a question, the progress of rendering. Functions with which
+// panels show them, and classes that keep keyboard and mouse from the panels behind.
 #pragma once
 #include "Mixer/Widgets/Parts.h"
 #include <atomic>
 
 namespace physvib {
 
-/// What asks over the window: a title, words, what a derived card has, and answers, the first at the right.
-/// As high as what is in it. Message thread.
+/// A card over the window: a title, a text, the content of a derived class, and answer buttons, the first at
+/// the right. Its height follows its contents. Message thread.
 class Card : public juce::Component {
 public:
     void paint(juce::Graphics& g) override { drawCard(g, *this); }
@@ -21,16 +21,16 @@ protected:
     explicit Card(int width);
     void say(const juce::String& title, const juce::String& words);
     void setAnswers(std::vector<juce::TextButton*> answers); ///< Return presses the first, if it is enabled
-    void fit();                                              ///< its middle stays where it is
+    void fit(); ///< adapts its size to its contents around its centre
     virtual int contentHigh() const = 0;
     virtual void place(juce::Rectangle<int> content) = 0;
-    virtual juce::Point<int> aside() const { return {}; } ///< what stands beside all of it
+    virtual juce::Point<int> aside() const { return {}; } ///< size of a picture at the left, in pixels
 
 private:
     int answersHigh() const {
         return (static_cast<int>(answers_.size()) + perRow() - 1) / perRow() * (rowHigh + gap) - gap;
     }
-    int perRow() const { return answers_.size() == 4 ? 4 : 3; } // none hangs below alone
+    int perRow() const { return answers_.size() == 4 ? 4 : 3; } // no answer is alone in a row
     const int width_;
     juce::Label title_, words_;
     std::vector<juce::TextButton*> answers_;
@@ -88,9 +88,9 @@ private:
     const Choice choice_;
     juce::File folder_;
     juce::Array<juce::File> entries_; // folders first
-    juce::File replaced_;             // asked for; the next press takes it
+    juce::File replaced_;             // existing file that the next press replaces
     Caption place_{{}, Shade::text}, fault_;
-    int rows_ = 0; // of the largest folder so far: it does not jump from folder to folder
+    int rows_ = 0; // of the largest folder so far, so that the height does not jump
     juce::ListBox list_{"Files", this};
     juce::TextEditor name_;
     juce::TextButton up_{"Up"}, accept_, cancel_{"Cancel"};
@@ -130,8 +130,8 @@ public:
     void enable(const juce::String& answer, bool isEnabled);
     using Card::say;
 
-    /// A square beside the words, with sharp pixels; null: `without` stands there, if it is not empty. With
-    /// `without` the room is that of the largest.
+    /// Shows a picture beside the text, with sharp pixels; if it is null, `without` is shown in its place.
+    /// Unless `without` is empty, the place is always as large as the largest picture.
     void setPicture(const juce::Image& picture, const juce::String& without = {});
     const juce::String& withoutPicture() const noexcept { return without_; }
     const juce::Image& picture() const noexcept { return picture_; }
@@ -199,7 +199,7 @@ public:
     virtual void setScreen(juce::Component* screen) = 0;
 };
 
-/// A link as a QR code, dark on white in any look, of at most mostPicture; null: it is too long. Any thread.
+/// A link as a QR code, dark on white in any theme, at most mostPicture; null: it is too long. Any thread.
 juce::Image qrPicture(const std::string& link);
 
 /// All for the message thread. `use` and `cancelled` are called later, after the card has gone, and not if
@@ -222,12 +222,11 @@ void askForValues(juce::Component& from, const juce::String& title, const juce::
 /// it. `made` gets its index. Message thread.
 void askMaterial(juce::Component& from, MixerModel& model, int material, bool isCopy,
                  std::function<void(int material)> made);
-/// The same from a menu, which also has the material's page with its figures, or with a choice of a
-/// recording.
+/// Shows a menu with both, and with two items that call `open`: the material's page, and a recording from
+/// which it is measured.
 void showMaterialMenu(juce::Component& from, MixerModel& model, int material, std::function<void(int)> made,
                       std::function<void(bool isRecording)> open);
 
-/// Keeps the keyboard and the mouse from what is behind an open card.
 /// Gives a card the keyboard, its first text field if it has one, and keeps it there. What would take it
 /// away: a menu that is pressed by the mouse has a window of its own, and when that closes, JUCE gives the
 /// keyboard to what had it before. Message thread.
@@ -263,7 +262,7 @@ private:
 /// and a press that closes a menu does nothing else. Message thread.
 class Curtain final : public juce::Component {
 public:
-    /// Seen only behind a card.
+    /// Shows or hides it; it is drawn only behind a card.
     void draw(bool isBehindCard, bool isBehindMenu) {
         if (isBehindCard != std::exchange(isBehindCard_, isBehindCard)) repaint();
         if (const bool isDrawn = isBehindCard || isBehindMenu; isDrawn != isVisible()) {

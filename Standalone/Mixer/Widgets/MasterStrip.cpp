@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Controls and picture of the total output.
+// Level, limiter and ceiling of the total output, as a strip or in a row.
 #include "Mixer/Widgets/Parts.h"
 
 namespace physvib {
@@ -33,7 +33,7 @@ void MasterStrip::mixChanged() {
 
 void MasterStrip::refresh(const MixerMoment& moment) {
     meter_.set(moment.masterPeak, moment.masterPeak);
-    // at SILENCE nothing is held back, as nothing comes
+    // a silenced output is not limited
     const bool isSilent = model_.isSilent();
     if (limiter_.set(isSilent ? 1.0f : moment.meters.limiterGain, isSilent ? 1.0f : moment.meters.guardGain))
         repaint();
@@ -46,7 +46,7 @@ double MasterStrip::mostG() const {
     return most;
 }
 
-// While something is held back, that stands in place of the most that can come.
+// While the limiter acts, its text replaces that of the ceiling.
 void MasterStrip::paintFlat(juce::Graphics& g) const {
     const bool isHeld = limiter_.isHolding();
     auto words = getLocalBounds().withRight(fader_.getX());

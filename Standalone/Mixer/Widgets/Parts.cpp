@@ -223,7 +223,7 @@ void Divider::paint(juce::Graphics& g) {
     g.fillRoundedRectangle(handle, 1.5f);
 }
 
-// It moves under the mouse, so each distance from the middle is a new one.
+// The divider moves with the mouse, so the distance is always counted from its present place.
 void Divider::mouseDrag(const juce::MouseEvent& e) {
     const auto from = e.position - e.mouseDownPosition;
     onMove(juce::roundToInt(isUpright_ ? from.x : from.y));

@@ -9,7 +9,7 @@
 
 namespace physvib {
 
-constexpr auto quietly = juce::dontSendNotification; ///< a control is set: nobody is called
+constexpr auto quietly = juce::dontSendNotification; ///< for setters of controls: no callback is called
 
 enum class Sign { play, pause, step, restart, plus, sweep, save, undo, redo };
 
@@ -44,7 +44,7 @@ void drawPanel(juce::Graphics& g, const juce::Component& component);
 void drawCard(juce::Graphics& g, const juce::Component& component);
 constexpr int panelInset = 14, gap = 12, rowHeight = 30;
 
-/// Colour and font of what is written next.
+/// Sets colour and font of the text that is drawn next.
 inline void ink(juce::Graphics& g, const juce::Component& c, Shade which, float height,
                 int style = juce::Font::plain) {
     g.setColour(shade(c, which));
@@ -56,7 +56,7 @@ inline void fillRound(juce::Graphics& g, const juce::Component& c, Shade which, 
     g.fillRoundedRectangle(area, corner);
 }
 
-/// The background of a row that is chosen.
+/// Draws the background of a selected row.
 inline void drawChosenRow(juce::Graphics& g, const juce::Component& c, int width, int height,
                           float alpha = 0.16f) {
     g.setColour(shade(c, Shade::accent).withAlpha(alpha));
@@ -116,7 +116,7 @@ public:
     void mouseDrag(const juce::MouseEvent& e) override;
 };
 
-inline juce::String dots() { return juce::String::charToString(0x2026); } ///< label opens a dialogue
+inline juce::String dots() { return juce::String::charToString(0x2026); } ///< ends dialogue labels
 
 /// Handle between two panels: drag it, or move it with the arrow keys; a double click makes it automatic.
 /// Message thread.
@@ -259,20 +259,20 @@ private:
     Fold fold_ = Fold::none;
 };
 
-/// Felt level in g of a strip's peak after the master level. M.
+/// Level in g of a strip's peak after the master level. Message thread.
 double gOf(const MixerModel& model, std::size_t strip, float peak);
-/// The most that can be felt of a strip, by its ceiling, in g. M.
+/// The same of a strip's ceiling: its highest possible level in g. Message thread.
 double maxG(const MixerModel& model, std::size_t strip);
 
 /// Strip of the total output: level, limiter, ceiling.
 class MasterStrip final : public juce::Component {
 public:
     static constexpr int width = 90, flatWords = 112;
-    static constexpr int metersTop = 48; ///< of a strip, too
+    static constexpr int metersTop = 48; ///< y of the meters, of strips as well
 
     /// `isFlat`: in one row without a meter, for where there are no strips.
     explicit MasterStrip(MixerModel& model, bool isFlat = false);
-    /// A warning in place of the most that can come, in a row; empty: none. Before mixChanged().
+    /// Warning that a flat strip shows in place of its ceiling; empty: none. Call it before mixChanged().
     void setRemark(const juce::String& remark) { remark_ = remark; }
     const juce::String& remark() const noexcept { return remark_; }
     void mixChanged();

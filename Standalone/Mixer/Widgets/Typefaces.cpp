@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Finds typefaces by outlines: a letter whose outline equals a non-character's is missing. JUCE 8 tells.
+// Finds typefaces that have letters. Before JUCE 8, a missing letter has the outline of a non-character.
 #include "Mixer/Widgets/Typefaces.h"
 #include "Host/Views/Look.h"
 #include <array>

@@ -12,7 +12,7 @@ constexpr int lookMs = 100,
               maxLooks = 50; // time for a sink to become ready: greeting and clock of a board need half a
                              // second, Bluetooth one
 
-/// Worn on the ears, by the name that the system gives it.
+/// Whether the system's name of a device is that of headphones.
 bool isForEars(const std::string& device) {
     const auto name = juce::String::fromUTF8(device.c_str()).toLowerCase();
     for (const char* word : {"headphone", "headset", "earphone", "earbud", "airpods", "kopfh", "casque"})
@@ -20,7 +20,7 @@ bool isForEars(const std::string& device) {
     return false;
 }
 
-/// One of a list of choices: it looks like that, not like a button.
+/// A row of a list of choices, with a radio button.
 class Row final : public juce::Button {
 public:
     explicit Row(const juce::String& words)

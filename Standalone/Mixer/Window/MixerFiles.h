@@ -9,10 +9,9 @@
 
 namespace physvib {
 
-/// Recovery copies of sessions after a crash. Each run holds a lock on its copy, which the system releases
-/// when the run ends in any way.
-/// The copies in one folder. A copy is removed only when its replacement is on disk or the user discards it.
-/// Message thread.
+/// Recovery copies of sessions in one folder. Each run holds a lock on its copy, which the system releases
+/// when the run ends in any way. A copy is removed only when its replacement is on disk or the user discards
+/// it. Message thread.
 class RecoveryCopies {
 public:
     explicit RecoveryCopies(const std::filesystem::path& folder);
@@ -46,7 +45,7 @@ private:
 /// $XDG_CONFIG_HOME/physvib, or ~/.config/physvib.
 juce::File mixerFolder();
 
-/// Message thread.
+/// The settings folder of the mixer. Message thread.
 class MixerFiles {
 public:
     explicit MixerFiles(const juce::File& folder = mixerFolder());

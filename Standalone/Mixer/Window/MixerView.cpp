@@ -37,20 +37,20 @@ constexpr TabEntry tabEntries[]{
     {false, "Events", make<EventsTab>},       {false, "Takes", make<TakesTab>},
     {false, "Telemetry", make<TelemetryTab>}};
 
-/// In its place: it is animated to where it is now.
+/// Fades in a component at its present place.
 void comeIn(juce::Component& c) {
     constexpr int ms = 120;
     if (c.isShowing()) juce::Desktop::getInstance().getAnimator().fadeIn(&c, ms);
 }
 
-/// What is typed keeps the colour that it was typed in.
+/// Gives typed text the colour of the theme; JUCE keeps the one that it was typed in.
 void inkTexts(juce::Component& in) {
     if (auto* const editor = dynamic_cast<juce::TextEditor*>(&in))
         editor->applyColourToAllText(shade(in, Shade::text));
     for (auto* child : in.getChildren()) inkTexts(*child);
 }
 
-/// A path that has no room in a line loses its beginning, and is not broken.
+/// Shortens paths at their beginning until each fits into a line of `room` pixels.
 juce::String fittingWords(const juce::String& words, const juce::Font& font, int room) {
     auto all = juce::StringArray::fromTokens(words, " ", {});
     for (auto& word : all)
@@ -198,7 +198,7 @@ void MixerView::setPanels(const Panels& panels) {
     showPanels();
 }
 
-// Not the strips where they would leave the field too little.
+// By default the lower panels are folded where they would leave the field too little room.
 Panels MixerView::panels() const {
     constexpr int least = 760;
     const auto& chosen = nth(panels_, mode_);
@@ -283,7 +283,7 @@ void MixerView::refresh() {
     keepPace();
 }
 
-// What stands on a screen alone nobody may have read: a person who moves the mouse or presses a key is there.
+// Errors stay until somebody may have read them: a user who moves the mouse or presses a key.
 void MixerView::attend() {
     if (seenAtMs_ == 0.0 && trouble_.isVisible() && openCard() == nullptr && screen_ == nullptr)
         seenAtMs_ = nowMs();
@@ -318,8 +318,8 @@ void MixerView::setCard(std::unique_ptr<juce::Component> card) {
     raiseCard();
 }
 
-// Esc closes a card or a menu, and ends a drag; what sounds, or did as long ago as meters hold, is silenced
-// as well.
+// Whether Esc closes a card or menu, or ends a drag, without silencing. It silences as well if anything
+// sounds, or did as long ago as meters hold peaks.
 bool MixerView::onlyCloses() {
     if (openCard() == nullptr && juce::Component::getCurrentlyModalComponent() == nullptr &&
         !world_.isDragging())

@@ -26,7 +26,7 @@ public:
     void setDocument(const juce::String& name) { save_.setTooltip("Save " + name + " (Ctrl+S)"); }
     /// Only the button that silences is left.
     void setShow(bool isShow);
-    /// Without the controls of an engineer.
+    /// Hides the controls of the engineer mode.
     void setPlay(bool isPlay);
     std::function<void()> onMode = [] {}; ///< the other mode is wanted
 
@@ -80,17 +80,17 @@ struct Dividers {
     static Dividers of(const juce::String& text);
 };
 
-/// What the panels would like to have.
+/// Widths for the strips, in pixels.
 struct Wanted {
     int minStrips = 0; ///< width at which all strips are in sight
     int maxStrips = 0; ///< width at which they are as wide as they may be
 };
 
-/// What a person sees: the world and what one needs to play, or all of it.
+/// What the window shows: the world with the controls to play, or everything.
 enum class Mode { play, engineer };
 
-/// Which panels are unfolded: the drawer beside the world, and the strips with their pages below it. Folded,
-/// an engineer sees their names.
+/// Which panels are unfolded: the drawer beside the world, and the strips with their pages below it. Of
+/// folded ones, the engineer mode shows the names.
 struct Panels {
     bool hasDrawer = false, hasLower = false;
     bool operator==(const Panels&) const = default;
@@ -119,9 +119,9 @@ class MixerView final : public juce::Component,
                         private juce::Timer {
 public:
     static constexpr int framesPerSecond = 60, restFramesPerSecond = 5, minWidth = 1000, minHeight = 640;
-    static constexpr int worldsPerPanel = 3; ///< pictures of the world for each of the other panels
+    static constexpr int worldsPerPanel = 3; ///< updates of the world per update of the other panels
 
-    double faultMs = 20e3; ///< how long what failed is told, once somebody is there
+    double faultMs = 20e3; ///< how long errors are shown once the user is active
 
     explicit MixerView(MixerModel& model);
     ~MixerView() override;
@@ -159,7 +159,7 @@ public:
     void setCard(std::unique_ptr<juce::Component> card) override;
     void setScreen(juce::Component* screen) override;
     juce::Component* card() noexcept { return card_.get(); }
-    /// Nothing but that card and the button that silences hears keys and the mouse; null: none is open.
+    /// The open card, which gets all keys; the mouse reaches it and the silence button only. Null: none.
     juce::Component* openCard() noexcept {
         return card_ ? card_.get() : static_cast<juce::Component*>(firstStart_.get());
     }

@@ -703,7 +703,7 @@ juce::File MixerWindow::folderOfDocuments() const {
     return folder ? folder.value : juce::File::getSpecialLocation(juce::File::userHomeDirectory);
 }
 
-/// Short, as a long word is broken.
+/// Path from the home folder: a shorter one, as long words are broken.
 static juce::String fromHome(const juce::File& file) {
     const auto home = juce::File::getSpecialLocation(juce::File::userHomeDirectory);
     return file.isAChildOf(home) ? "~/" + file.getRelativePathFrom(home) : file.getFullPathName();
@@ -995,7 +995,7 @@ void MixerWindow::newScene(SceneGround ground) {
     view_->world().drawing().use(DrawTool::ball);
 }
 
-// Where nobody has the page, the world goes as a file.
+// Without the address of a page, it offers to start a server, or a movie or scene file.
 void MixerWindow::share(bool isElsewhere) {
     const auto link = pageLink(model_->mix(), model_->world().drawing().drawn());
     if (!link) return say(utf8(link.error));

@@ -13,7 +13,7 @@ namespace {
 constexpr int maxLinked = 8; // actuators of the page
 constexpr int rawDeflate = -15;
 
-/// As URLSearchParams, but for commas and equals signs.
+/// Escapes as URLSearchParams does, except for commas and equals signs.
 std::string encoded(const std::string& text) {
     std::string made;
     for (const char c : text) {

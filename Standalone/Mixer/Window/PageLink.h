@@ -14,15 +14,15 @@ Result<std::string> pageLink(const Mix& mix, const Scene& drawn);
 /// Whether an address of a page is of this computer alone.
 bool isLoopback(const juce::String& address);
 
-/// In the system's browser, to the letter. Message thread.
+/// Opens it, unchanged, in the system's browser. Message thread.
 void openLink(juce::String link);
 
 /// Serves the page by https to this network, by its serve.py, until it goes.
 class PageServer {
 public:
     ~PageServer() { program_.kill(); }
-    /// The page is there: of the tree in which the mixer was built, or a release's folder physvib-page in or
-    /// above the mixer's, or installed beside it in share/physvib. Any thread.
+    /// Whether there is a page: in the tree where the mixer was built, in a release's folder physvib-page in
+    /// or above the mixer's, or installed beside it in share/physvib. Any thread.
     static bool isThere() { return page() != juce::File{}; }
     /// The page's address for others, or one line. May wait for a second: not on the message thread.
     Result<std::string> begin();
