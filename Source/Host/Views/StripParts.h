@@ -30,7 +30,7 @@ private:
 /// How much the limiter holds back, or the guard, if that is more: a bar that grows downwards to 20 dB. M.
 class LimiterBar final : public juce::Component {
 public:
-    bool set(float limiterGain, float guardGain); ///< whether it is other than before
+    bool set(float limiterGain, float guardGain); ///< true: the display has changed
     bool isHolding() const noexcept { return db_ < -0.05f; }
     bool isGuard() const noexcept { return isGuard_; }
     juce::String decibels() const { return readable::words(isHolding() ? db_ : 0.0, 1); }
@@ -45,9 +45,9 @@ private:
 /// hands may be on the actuators; a double click gives the default.
 class Fader final : public juce::Slider {
 public:
-    /// M.
+    /// Sets range and default in dB, and the title. M.
     void setUp(double leastDb, double mostDb, const juce::String& title, double defaultDb = 0.0);
-    /// From left to right, as a plain slider. M.
+    /// Makes it a plain horizontal slider. M.
     void lieDown() { setSliderStyle(LinearHorizontal), getProperties().remove(faderProperty); }
     void resized() override;
 };

@@ -213,7 +213,7 @@ namespace {
 using Badges = std::vector<juce::Rectangle<float>>;
 constexpr float twoLetters = 24.0f;
 
-/// Of places that differ, the least distance along the farther axis.
+/// Minimum distance of two different places, along the axis where they are farther apart.
 float nearestOf(std::span<const juce::Point<float>> places) {
     float nearest = 2.0f * highestBadge;
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -225,7 +225,7 @@ float nearestOf(std::span<const juce::Point<float>> places) {
     return nearest;
 }
 
-/// Half of the way to each neighbour in its row, or more of it if that one needs less.
+/// Width of a badge: half of the way to each neighbour in its row, or more if the neighbour needs less.
 float widthOf(std::size_t i, std::span<const juce::Point<float>> places, std::span<const float> wanted,
               float least, float high) {
     float width = std::min(widestBadge, wanted[i]);
@@ -269,7 +269,7 @@ Badges badgesAround(std::span<const juce::Point<float>> places, std::span<const 
                           .withCentre(places[i])
                           .constrainedWithin(room));
     }
-    // those in nobody's way first, so that none of them has to move
+    // badges that overlap no other come first, so that they need not move
     std::vector<std::size_t> order(own.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_partition(order, [&](std::size_t i) {

@@ -56,7 +56,7 @@ void fillWithPicture(juce::Graphics& g, const juce::Path& path, const juce::Affi
 void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
                       MaterialLook look, bool isHollow);
 
-/// Small discs as pictures that are drawn once: a world of thousands is then as quick as it is to copy them.
+/// Cached pictures of small discs, because copying thousands of them is faster than drawing them.
 class BallPictures {
 public:
     static constexpr float mostPixels = 16.0f; ///< radius, in pixels of the display

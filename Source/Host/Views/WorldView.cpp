@@ -295,7 +295,7 @@ bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixtur
     return look.has_value();
 }
 
-// Of a plain circle that is small; false: nothing was drawn.
+// Draws a small plain circle from a cached picture; false: nothing was drawn.
 bool WorldView::drawSmall(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour,
                           double angle, const juce::AffineTransform& place, const Map& at) {
     const auto* circle = std::get_if<CircleShape>(&fixture.shape);
@@ -370,11 +370,11 @@ void WorldView::addHit(const CollisionEvent& event, double nowMs, bool isFelt) {
     if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
 }
 
-// Drawn over the outlines that they follow, with a white core like hits. Even the weakest are visible.
 float WorldView::ageOf(double shownAtMs) const {
     return static_cast<float>(juce::jlimit(0.0, 1.0, (nowMs_ - shownAtMs) / hitMs));
 }
 
+// Traces have a white core, as hits, and lie over the outlines that they follow. Even weak ones show.
 void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
     for (const auto& trace : traces_) {
         const float level = levelOf(trace.amplitude),
@@ -408,7 +408,7 @@ void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
         const auto centre = at.at(hit.event.x, hit.event.y);
         const float radius = 10.0f + 34.0f * level * (0.5f + 0.5f * age);
         const auto ring = juce::Rectangle<float>{1.5f * radius, 1.5f * radius}.withCentre(centre);
-        if (!hit.isFelt) { // a glow says that it is
+        if (!hit.isFelt) { // only what is felt glows
             g.setColour(shade(*this, Shade::muted).withAlpha(1.0f - age));
             g.drawEllipse(ring, 1.4f);
             continue;
@@ -461,7 +461,7 @@ void drawDashes(juce::Graphics& g, juce::Rectangle<float> badge) {
 } // namespace
 
 void WorldView::drawEnchanters(juce::Graphics& g) const {
-    for (int j = 0; j < layout_.geometry.count; ++j) // where those are that had to move
+    for (int j = 0; j < layout_.geometry.count; ++j) // lines to the true places of moved badges
         if (const juce::Line<float> way{placeOfEnchanter(j), badgeAt(j).getCentre()};
             !badgeAt(j).contains(way.getStart())) {
             g.setColour(enchanterColour(*this, j));
@@ -490,7 +490,7 @@ void WorldView::drawEnchanters(juce::Graphics& g) const {
         if (!isMuted(j) || isWithoutOutput(j)) continue;
         for (const auto& [corner, other] : {std::pair{badge.getBottomLeft(), badge.getTopRight()},
                                             {badge.getTopRight(), badge.getBottomLeft()}})
-            g.drawLine({corner, corner + (other - corner) * 0.3f}, 2.0f); // struck out, its letter is not
+            g.drawLine({corner, corner + (other - corner) * 0.3f}, 2.0f); // strikes out the corners
     }
 }
 
