@@ -91,7 +91,7 @@ public:
 
     void mixChanged() override;
     int minHeight(int) const override { return controlsHeight; }
-    /// The check of the protocol; none while it is made. It is made while the tab is seen.
+    /// Result of the check of the protocol; none while it runs. It runs while the tab is visible.
     const std::optional<StudyCheck>& check() const noexcept { return check_; }
 
     void refresh(const MixerMoment& moment) override {
@@ -135,7 +135,7 @@ private:
     juce::TextEditor code_, number_, folder_;
     std::unique_ptr<juce::TextButton> browse_, analyse_, findings_;
     std::optional<StudyCheck> check_; // of protocol_
-    bool isBeginWanted_ = false;      // once there is that
+    bool isBeginWanted_ = false;      // as soon as the check is finished
     MasterStrip master_{model_, true};
     juce::TextButton begin_{"Begin"};
     juce::Rectangle<int> aboutArea_, levelArea_;
