@@ -75,8 +75,7 @@ private:
         const bool isDown = juce::Desktop::getInstance().getNumComponents() > 0 && isEscapeDown();
         if (isDown && !isHeld_ && target != nullptr) silence(*target);
         isHeld_ = isDown;
-        juce::MessageManager::callAsync(&takeWhatWasReadAhead); // later, when no list of listeners is
-                                                                // iterated
+        juce::MessageManager::callAsync(&takeWhatWasReadAhead); // later, outside lists of listeners
     }
     void globalFocusChanged(juce::Component*) override { listen(); }
     void mouseUp(const juce::MouseEvent&) override { listen(); }

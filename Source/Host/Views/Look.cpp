@@ -56,8 +56,7 @@ double luminanceOf(juce::Colour colour) {
            0.0722 * linear(colour.getFloatBlue());
 }
 
-/// Darker or lighter until its letters can be read on a panel; chosen colours of the dark look stay as they
-/// are.
+/// Colour of an actuator, darkened or lightened until text in it has enough contrast on a panel.
 juce::Colour readableEnchanter(Theme theme, int index) {
     constexpr double least = 4.6;
     const bool isLight = theme == Theme::light;
@@ -200,7 +199,7 @@ void Look::drawLabel(juce::Graphics& g, juce::Label& label) {
     const int lines =
         std::max(1, static_cast<int>(static_cast<float>(area.getHeight()) / getLabelFont(label).getHeight()));
     const int high = text::high(getLabelFont(label), label.getText(), area.getWidth());
-    if (lines > 1 && high <= area.getHeight()) { // JUCE's fitting takes too few lines now and then
+    if (lines > 1 && high <= area.getHeight()) { // JUCE's fitting sometimes uses too few lines
         juce::AttributedString words;
         words.append(label.getText(), getLabelFont(label), label.findColour(juce::Label::textColourId));
         words.setJustification(label.getJustificationType());

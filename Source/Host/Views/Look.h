@@ -107,7 +107,7 @@ inline const juce::Identifier faderProperty{"physvib-fader"};
 /// Icons whose tooltip is their name and appears without the usual delay.
 inline const juce::Identifier iconProperty{"physvib-icon"};
 
-/// Changes what a component shows, and draws it anew if that differs. M.
+/// Sets a displayed value, and repaints the component if it has changed. M.
 template <class T>
 void setShown(juce::Component& component, T& shown, const T& value) {
     if (std::exchange(shown, value) != value) component.repaint();

@@ -78,8 +78,8 @@ protected:
     explicit StripParts(const juce::String& label);
     virtual void change(const juce::String& name, const std::function<void(Strip&)>& how) = 0;
     void show(const Strip& strip, double mostG);
-    /// Figures and, above them, meter and fader, from `left` on; buttons between, or in a column beside them,
-    /// which leaves the fader a longer way.
+    /// Places meter and fader from `left` on, above the figures. The buttons lie between them, or with
+    /// `areBeside` in a column, which makes the fader longer.
     void place(juce::Rectangle<int> area, int left, bool areBeside = false);
     /// The fader's gain, or `why` it plays nothing, stands beside the name, unless it is 0 dB or the name
     /// needs the room; the meter's scale is right of the meter.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Texture tiles and discs are made once, so that they cost as much as plain fills; badges that overlap are
-// moved to the nearest free place.
+// Draws textures, discs and glows from cached pictures, and places badges so that they do not overlap.
 #include "Host/Views/WorldPictures.h"
 #include "Host/Views/Look.h"
 #include <algorithm>
@@ -125,7 +124,7 @@ namespace {
 
 constexpr std::size_t mostKinds = 12; // at most some megabytes
 
-/// A picture in pixels of the display, of which the component has `scale` each, its middle at one of them.
+/// Draws a picture centred at a pixel of the display; `scale`: display pixels per pixel of the component.
 void drawAround(juce::Graphics& g, const juce::Image& picture, juce::Point<int> pixel, float scale,
                 float opacity) {
     const auto corner = (pixel - juce::Point<int>{1, 1} * (picture.getWidth() / 2)).toFloat();

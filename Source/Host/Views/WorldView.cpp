@@ -14,7 +14,7 @@ namespace {
 constexpr double hitMs = 450.0;         // how long a hit glows
 constexpr std::size_t maxHits = 48;     // simultaneous; more would only glare
 constexpr std::size_t maxTraces = 400;  // for 30 sliding pairs
-constexpr double leastGain = 0.02;      // of an actuator that plays a hit
+constexpr double leastGain = 0.02;      // with less, an actuator plays no hit
 constexpr float wallPixels = 11.0f;     // bodies around the field are drawn as a frame of this width
 constexpr float lowBadge = 24.0f;       // has small text
 constexpr float minSpokePixels = 4.0f;  // radius of a circle whose rotation is seen
@@ -348,7 +348,7 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) {
 
 // All grains of one update form one segment of a contact's path, which starts where the last one ended.
 void WorldView::addHit(const CollisionEvent& event, double nowMs, bool isFelt) {
-    if (isFelt && std::ranges::find(muted_, true) != muted_.end()) { // whether another one plays it
+    if (isFelt && std::ranges::find(muted_, true) != muted_.end()) { // whether an unmuted one plays it
         PhantomPanner::Gains gains{};
         panner_.gainsAt(event, gains);
         isFelt = false;
@@ -400,8 +400,7 @@ void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
 
 void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
     const auto amber = shade(*this, Shade::now);
-    const bool isLight = shade(*this, Shade::well).getPerceivedBrightness() > 0.5f; // where thin lines are
-                                                                                    // faint
+    const bool isLight = shade(*this, Shade::well).getPerceivedBrightness() > 0.5f; // needs thick lines
     for (const auto& hit : hits_) {
         const float age = ageOf(hit.shownAtMs), level = levelOf(hit.event.amplitude),
                     fade = (1.0f - age) * std::sqrt(level);

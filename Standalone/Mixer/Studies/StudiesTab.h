@@ -106,19 +106,19 @@ public:
 
 private:
     static constexpr int controlsHeight = 256; // with a line of advice
-    void pickProtocol();
+    void pickProtocol();                       ///< handles the list of protocols
     static bool isDone(const StudyRun& run, const std::vector<TrialRecord>& records);
     void offerLayout();
     void offerLevel(double db);
     void chooseNoise(const std::vector<int>& outputs);
-    void look();
-    void listNoise();
-    void pickWords();
+    void look();      ///< shows the state of the trial file, and what Begin would do
+    void listNoise(); ///< lists the free outputs
+    void pickWords(); ///< handles the list of languages
     ListeningSettings listening() const;
-    void say(const juce::String& words, Shade shade);
+    void say(const juce::String& words, Shade shade); ///< beside Begin
     void stopCheck();
     void updateCheck();
-    void showFindings();
+    void showFindings();  ///< opens the report of the check
     StudyRun run() const; ///< the selection; precondition: there is a protocol
 
     MixerModel& model_;

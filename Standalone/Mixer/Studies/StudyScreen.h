@@ -224,24 +224,24 @@ public:
     void resized() override;
 
 private:
-    void showNext();
+    void showNext(); ///< the next trial, break or closing page
     void showPage(Page page);
     void showTrial();
-    void showParts();
-    void fail(const std::string& reason);
+    void showParts();                     ///< makes the buttons of the trial's parts
+    void fail(const std::string& reason); ///< stops playback and shows the error page
     void note(std::string_view event) { model_.reportFault(study_->note(event)); } ///< to the file of times
-    void goOn();
-    void leave();
+    void goOn();  ///< leaves the current page, as its button and Enter do
+    void leave(); ///< closes the screen, unless a stimulus plays
     void play(std::size_t part);
-    std::string begin(std::size_t part);
+    std::string begin(std::size_t part); ///< starts the playback; empty, or an error
     void playSequence();
-    void pause();
-    void asked();
+    void pause(); ///< ends an interactive world, so that it can be answered
+    void asked(); ///< a response was chosen
     void confirm();
-    void submit(Answer answer);
+    void submit(Answer answer); ///< stores it and shows what follows
     void submitComment();
-    void settle(Course course);
-    void markFelt();
+    void settle(Course course); ///< counts the play that is over, or has it repeated
+    void markFelt();            ///< sends the marker of a started part once its time is known
     std::string markerWords(const char* what) const;
     double exposure() const;
     bool isExposed() const { return exposure() >= study_->protocol().exposureLimit; }

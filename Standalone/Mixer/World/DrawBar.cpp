@@ -96,7 +96,7 @@ int DrawBar::widthFor(int height) {
 
 void DrawBar::resized() {
     const int rows = perColumn(getHeight()), each = highFor(getHeight());
-    const int apart = rows < buttonCount ? 0 // columns of one line each
+    const int apart = rows < buttonCount ? 0 // several columns
                                          : std::min((getHeight() + between - rows * (each + between)) / 3, 8);
     for (int k = 0; k <= static_cast<int>(tools_.size()); ++k) {
         auto& button =
@@ -126,7 +126,7 @@ public:
     static constexpr int pictureWide = 32;
     int namedWide() const { return 38 + text::pixels(text::font(text::small), getName()); }
     std::function<void()> onEnter;
-    std::function<void(MaterialSwatch&, bool isMenu)> onEdit; ///< a double click, or for a menu a right one
+    std::function<void(MaterialSwatch&, bool isMenu)> onEdit; ///< double click; right click: isMenu
     void mouseDown(const juce::MouseEvent& e) override {
         e.mods.isPopupMenu() ? onEdit(*this, true) : juce::Button::mouseDown(e);
     }
@@ -140,7 +140,7 @@ public:
                         .brighter(isOver ? 0.1f : 0.0f)
                         .withAlpha(0.95f));
         g.fillRoundedRectangle(getLocalBounds().toFloat(), 6.0f);
-        g.setColour(shade(*this, Shade::accent)); // as a tab's: a frame is the keyboard's
+        g.setColour(shade(*this, Shade::accent)); // as in tabs; frames mark the focus
         if (getToggleState()) g.fillRect(getLocalBounds().reduced(6, 0).removeFromBottom(2));
         g.setColour(colour_);
         const float middle = 0.5f * static_cast<float>(getHeight());
@@ -183,7 +183,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page
     setTitle("Chosen bodies");
     const auto change = [this](const juce::String& name, auto what, bool continuesEdit = false) {
         pane_.changeChosen(name, what, continuesEdit);
-        show(); // a refused change leaves no mark
+        show(); // restores the display if it was refused
     };
     const auto slides = [change](juce::Slider& slider, const char* name, auto set) {
         onSlide(slider, [change, name, set, &slider](bool continuesEdit) {
@@ -261,7 +261,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page
     belt_.setRange(-20.0, 20.0, 0.1);
     belt_.setTextValueSuffix(" m/s");
     slides(belt_, "Belt speed", [](BodyDescription& b, double speed) {
-        constexpr double still = 0.01; // it stays a belt
+        constexpr double still = 0.01; // with 0 it would be a wall
         b.velocityMetresPerSecond.x = speed == 0.0 ? still : speed;
     });
     new_.onClick = [this] { askMaterial(*this, model_, pane_.material(), true, give_); };

@@ -82,9 +82,9 @@ private:
     double grid() const { return snaps_ ? model_.world().scene().fieldHeightMetres / gridsPerField : 0.0; }
     bool isBeside(juce::Point<float> place) const;
     std::optional<Handles> handles() const;
-    BodyDescription sizedNow() const;
-    std::map<std::string, BodyPlace> movedNow() const;
-    Result<BodyDescription> drawnNow() const;
+    BodyDescription sizedNow() const;                  ///< the selected body as the drag sizes it
+    std::map<std::string, BodyPlace> movedNow() const; ///< selected bodies as the drag moves them
+    Result<BodyDescription> drawnNow() const;          ///< what the stroke would become
     Result<std::vector<BodyDescription>> rainNow() const;
     Result<BodyDescription> beltNow() const;
     void addStroke();
@@ -100,10 +100,10 @@ private:
     void closePolygon();
     void addInTheMiddle();
     bool handleToolKey(const juce::KeyPress& key);
-    std::string fieldBody(std::vector<Action>& actions, const Vector& place);
-    std::string jointAt(juce::Point<float> place) const;
-    Vector carried(const Vector& point, const std::string& body) const;
-    juce::Line<float> lineNow(const JointDescription& joint) const;
+    std::string fieldBody(std::vector<Action>& actions, const Vector& place); ///< for a joint to the field
+    std::string jointAt(juce::Point<float> place) const;                      ///< its name; empty: none
+    Vector carried(const Vector& point, const std::string& body) const; ///< at the current pose of the body
+    juce::Line<float> lineNow(const JointDescription& joint) const;     ///< in pixels
     void drawBelts(juce::Graphics& g) const;
     void drawJoints(juce::Graphics& g) const;
     void drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place,

@@ -78,15 +78,15 @@ public:
     void resized() override;
 
 private:
-    void moveHand();
+    void moveHand(); ///< sends the grip of the hand, if it is time
     void addActuatorItems(juce::PopupMenu& menu, int enchanter);
     void addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place);
     void addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector place);
-    void placeInspector();
+    void placeInspector(); ///< lays the body panel beside, above or in the field
     juce::Rectangle<int> withinField(int wide, int high) const;
-    void showTools();
+    void showTools(); ///< updates all controls of drawing
     void play(const std::vector<Action>& actions);
-    void lookAfterPlayer();
+    void lookAfterPlayer(); ///< moves it towards the pointer, and keeps it in the field
     double metresAt(float x) const;
     juce::String sentenceOn(const CollisionEvent& hit) const;
     juce::String inLines(const juce::StringArray& parts) const;
