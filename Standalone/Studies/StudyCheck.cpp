@@ -31,7 +31,7 @@ namespace {
 
 constexpr int checkRateHz = 48000;
 constexpr double longestWithoutBreakSeconds = 30.0 * 60.0;
-constexpr double longestSeconds = 3.0 * 3600.0; // of one participant, breaks included: more tires anyone
+constexpr double longestSeconds = 3.0 * 3600.0; // of one participant, with breaks
 constexpr double weakDb = 6.0; // above the detection threshold; most people feel this at once
 
 /// Minimum gain that the output guard would apply to a stimulus.

@@ -24,7 +24,7 @@ struct CheckedStimulus : PlannedStimulus {
     std::string error;              ///< why it cannot be played, in one line
 };
 
-/// The print of a stimulus that is not rendered: of its call. Any thread.
+/// Hash of the call of a stimulus, used as its print if it is not rendered. Any thread.
 std::uint64_t printOfCall(const TrialJob& job);
 
 /// Results of a check. Message thread.
@@ -51,7 +51,7 @@ StudyCheck checkStudy(const Protocol& protocol, int participants, const std::fun
 /// phantoms only where their gains exceed the layout. Message thread.
 std::string studyFault(const Protocol& protocol);
 
-// Rules of a study's check: what renders alike, and what no number of trials reaches.
+// Rules of a study's check: stimuli that render alike, and settings that cannot take effect.
 
 /// Adds to the errors and warnings of a check whose stimuli have their prints. Errors: a level, a factor,
 /// alternatives or objects that change no sample; reversals, steps and times that cannot be reached.

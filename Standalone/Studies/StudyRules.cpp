@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compares the prints of a study's stimuli: equal prints are equal samples, which nobody can tell apart.
+// Reports stimuli with the same samples, which nobody can tell apart, and settings that cannot take effect.
 #include "Core/Units.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
@@ -31,7 +31,7 @@ public:
 
     void judge() {
         for (std::size_t c = 0; c < protocol_.conditions.size(); ++c) {
-            if (broken_.contains(c)) continue; // has an error that says more
+            if (broken_.contains(c)) continue; // its error is reported already
             judgeLevels(c);
             judgeStimuli(c);
             judgeTwin(c);
@@ -54,7 +54,7 @@ private:
         const auto found = byLevel_.find({c, label, part});
         return found != byLevel_.end() ? found->second : none;
     }
-    /// Of every part of a stimulus, at its levels that are rendered whatever the session.
+    /// Hashes of the samples of every part of a stimulus, at its highest levels.
     std::vector<Print> printsOf(std::size_t c, const std::string& label) const {
         std::vector<Print> prints;
         for (auto at = byLevel_.lower_bound({c, label, {}});
@@ -63,7 +63,7 @@ private:
                 if (one->isHighest) prints.push_back(one->print);
         return prints;
     }
-    /// Of a part at that level; where the check has not rendered it there, the hash of its call.
+    /// Hash of the samples of a part at that level, or of its call if the check has not rendered it there.
     Print printOf(std::size_t c, std::size_t session, const std::string& label, const std::string& part,
                   double db) const {
         const Levels& levels = levelsOf(c, label, part);
@@ -123,7 +123,7 @@ private:
         });
     }
 
-    /// The name may mean what is not rendered, such as a posture: so this is a warning.
+    /// Warns of conditions with the same samples: they may differ in what is not rendered, such as a posture.
     void judgeTwin(std::size_t c) {
         const auto whole = [this](std::size_t condition) {
             std::vector<std::vector<Print>> all;
@@ -215,7 +215,7 @@ private:
         if (s.leastSeconds > 0.0 && s.mostPlays > 0) judgeLeast(at, s);
     }
 
-    /// A part that is over before the answer may unlock, however often it may be played.
+    /// Refuses a minimum duration that the allowed number of plays cannot reach.
     void judgeLeast(const std::string& at, const SessionPlan& s) {
         double shortest = s.leastSeconds;
         for (const CheckedStimulus& one : check_.stimuli)
@@ -241,8 +241,8 @@ private:
                  " trials at least, and most_trials is " + std::to_string(plan.mostTrials));
     }
 
-    /// Of a stimulus that differs from the others in its level alone: below theirs, another one is the right
-    /// choice, and right answers lead away from the threshold.
+    /// Refuses a stimulus that differs from the others only in level and lies below them: another one is then
+    /// the right choice, and right answers lead away from the threshold.
     void judgeReference(const std::string& at, const SessionPlan& s, const auto& plan, double startDb) {
         const auto isOneSound = [](const ConditionPlan& c) { return !namesParts(c); };
         if (std::ranges::none_of(protocol_.conditions, isOneSound)) return;

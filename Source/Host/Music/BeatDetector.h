@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Real-time onset detection in music, per frequency band, with aubio: phase vocoder, spectral flux, peak
-// picker.
+// BeatDetector finds onsets in music per frequency band, in real time with aubio; strikeBeat makes events of
+// them; BandPass keeps the band that actuators can render.
 #pragma once
 #define AUBIO_UNSTABLE 1 // aubio declares its peak picker only with this; its version is the distribution's
 #include "Core/Actuators/ActuatorEqualiser.h"
@@ -18,8 +18,6 @@
 #include <string_view>
 
 namespace physvib {
-
-// Turns an onset in music into an event on each actuator of its band.
 
 struct BeatBand {
     std::string_view name;

@@ -115,7 +115,7 @@ std::vector<char> bytesOf(const MessagePointer& message, const std::string& addr
     return bytes;
 }
 
-/// Whether the set of a pattern, as it stands between the brackets, has `c`.
+/// Whether the set between the brackets of a pattern contains `c`.
 bool isInSet(std::string_view set, char c) noexcept {
     const bool isNegated = set.starts_with('!');
     bool has = false;

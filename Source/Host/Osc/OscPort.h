@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Open Sound Control input and output of a live session, on threads of its own.
+// OscPort: OSC input and output of a live session, on its own threads; OscReplies limits its replies.
 #pragma once
 #include "Core/RenderControl.h"
 #include "Host/Osc/OscReceiver.h"

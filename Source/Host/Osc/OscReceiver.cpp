@@ -24,7 +24,7 @@ std::string_view addressIn(std::span<const char> bytes) {
     return text.starts_with('/') ? text.substr(0, text.find('\0')) : std::string_view{};
 }
 
-/// An address of silence, also as a pattern of OSC ("/physvib/sil*"), which no other address may be.
+/// Whether that address requests silence, also as an OSC pattern ("/physvib/sil*").
 bool isForSilence(std::string_view address) {
     return !isReply(address) && ((address.starts_with(oscPrefix) && namesSilence(address)) ||
                                  matchesOscPattern(address, oscSilenceAddress));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Executes received OSC packets: turns addresses and values into messages, inputs and controls, and counts
-// them.
+// OscReceiver executes OSC packets as messages, inputs and controls; OscClock converts time tags to session
+// time; PhoneSensors turns readings of phones into gravity.
 #pragma once
 #include "Core/Units.h"
 #include "Host/Osc/OscPacket.h"

@@ -18,10 +18,9 @@ namespace physvib {
 
 namespace {
 
-/// A call that waits for the display's answer, such as where the mouse is, reads the clicks and keys before
-/// it as well, and JUCE, which waits for more to read, finds them only with what comes next: a press was
-/// heard 0.2 to 0.4 s late. What every source of events has is taken here, once: one of them has calls of
-/// this. M.
+/// Dispatches the pending events of every source. A call that waits for the display's answer, such as for the
+/// mouse position, also reads earlier clicks and keys, which JUCE finds only when more arrives: a press acted
+/// 0.2 to 0.4 s late. A nested call, which an event may cause, does nothing. M.
 void takeWhatWasReadAhead() {
 #if JUCE_LINUX || JUCE_BSD
     static bool isTaking = false;
@@ -49,11 +48,11 @@ public:
     }
     std::vector<EmergencyStop*> stops;
 
-    // JUCE wakes its threads for every picture anyway: those look. The timer, which would wake them again,
-    // looks where no picture does.
+    // Polls with each frame of the display, for which JUCE wakes this thread anyway. The timer polls only
+    // while there are no frames.
     void lookWithPicture() {
         const auto now = juce::Time::getMillisecondCounter();
-        if (now - lookedAtMs_ < leastMs) return; // pictures are many
+        if (now - lookedAtMs_ < leastMs) return; // frames may come more often
         lookedAtMs_ = now;
         if (getTimerInterval() != seldomMs) startTimer(seldomMs);
         look();
@@ -76,7 +75,7 @@ private:
         const bool isDown = juce::Desktop::getInstance().getNumComponents() > 0 && isEscapeDown();
         if (isDown && !isHeld_ && target != nullptr) silence(*target);
         isHeld_ = isDown;
-        juce::MessageManager::callAsync(&takeWhatWasReadAhead); // by then no list of listeners is walked
+        juce::MessageManager::callAsync(&takeWhatWasReadAhead); // later, outside lists of listeners
     }
     void globalFocusChanged(juce::Component*) override { listen(); }
     void mouseUp(const juce::MouseEvent&) override { listen(); }

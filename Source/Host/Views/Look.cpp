@@ -47,7 +47,7 @@ juce::Colour readableOn(juce::Colour ground) {
     return ground.getPerceivedBrightness() > 0.55f ? juce::Colour{Argb{0xff101218}} : juce::Colours::white;
 }
 
-/// As WCAG 2 has it.
+/// Relative luminance by WCAG 2, 0 to 1.
 double luminanceOf(juce::Colour colour) {
     const auto linear = [](float v) {
         return v <= 0.04045f ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
@@ -56,8 +56,7 @@ double luminanceOf(juce::Colour colour) {
            0.0722 * linear(colour.getFloatBlue());
 }
 
-/// Darker or lighter until its letters can be read on a panel; chosen colours of the dark look stay as they
-/// are.
+/// Colour of an actuator, darkened or lightened until text in it has enough contrast on a panel.
 juce::Colour readableEnchanter(Theme theme, int index) {
     constexpr double least = 4.6;
     const bool isLight = theme == Theme::light;
@@ -94,7 +93,7 @@ void drawBar(juce::Graphics& g, juce::Rectangle<float> area, float place, const 
     bar.addRoundedRectangle(area.reduced(0.5f), corner);
     g.setColour(shade(slider, Shade::raised));
     g.fillPath(bar);
-    g.setColour(shade(slider, Shade::line)); // its end is seen on whatever it lies
+    g.setColour(shade(slider, Shade::line)); // its end is visible on any background
     g.strokePath(bar, juce::PathStrokeType{1.0f});
     if (!slider.isEnabled()) return;
     const juce::Graphics::ScopedSaveState whole{g};
@@ -200,7 +199,7 @@ void Look::drawLabel(juce::Graphics& g, juce::Label& label) {
     const int lines =
         std::max(1, static_cast<int>(static_cast<float>(area.getHeight()) / getLabelFont(label).getHeight()));
     const int high = text::high(getLabelFont(label), label.getText(), area.getWidth());
-    if (lines > 1 && high <= area.getHeight()) { // JUCE's fitting takes too few lines now and then
+    if (lines > 1 && high <= area.getHeight()) { // JUCE's fitting sometimes uses too few lines
         juce::AttributedString words;
         words.append(label.getText(), getLabelFont(label), label.findColour(juce::Label::textColourId));
         words.setJustification(label.getJustificationType());
@@ -233,7 +232,7 @@ void Look::drawPopupMenuItem(juce::Graphics& g, const juce::Rectangle<int>& area
                                             hasSubMenu, words, keys, icon, isActive ? colour : &muted);
 }
 
-/// In a window as small as it goes: a whole word in small letters.
+/// Narrow boxes use the small font, so that words fit.
 static bool isNarrow(const juce::ComboBox& box) { return box.getWidth() < 120; }
 
 void Look::drawComboBox(juce::Graphics& g, int width, int height, bool, int, int, int, int,
@@ -322,11 +321,11 @@ std::unique_ptr<juce::FocusOutline> Look::createFocusOutlineForComponent(juce::C
             constexpr int handle = 30; // a fader's scale begins beside it
             auto ring = c.getScreenBounds().expanded(2);
             if (c.getProperties()[faderProperty]) ring = ring.withSizeKeepingCentre(handle, ring.getHeight());
-            const auto* parent = c.getParentComponent(); // cuts what is outside it
+            const auto* parent = c.getParentComponent(); // which clips the outline
             return parent ? ring.getIntersection(parent->getScreenBounds()) : ring;
         }
         void drawOutline(juce::Graphics& g, int width, int height) override {
-            if (of != nullptr) g.setColour(shade(*of, Shade::accent)); // of the present look
+            if (of != nullptr) g.setColour(shade(*of, Shade::accent)); // of the current theme
             g.drawRoundedRectangle(juce::Rectangle<int>{width, height}.toFloat().reduced(1.0f), corner + 1.0f,
                                    2.0f);
         }

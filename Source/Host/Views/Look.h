@@ -51,8 +51,8 @@ enum class Shade { ground, panel, raised, well, line, text, muted, now, limit, c
 
 enum class Theme { dark, light };
 
-JUCE_BEGIN_IGNORE_WARNINGS_GCC_LIKE("-Wdeprecated-declarations") // JUCE 8 and 9 would rather have others
-/// All of a display, and what the system's bars leave of it. M.
+JUCE_BEGIN_IGNORE_WARNINGS_GCC_LIKE("-Wdeprecated-declarations") // deprecated in JUCE 8 and 9
+/// Area of a display, and the area without the system's bars. M.
 inline juce::Rectangle<int> wholeOf(const juce::Displays::Display& display) { return display.totalArea; }
 inline juce::Rectangle<int> usableOf(const juce::Displays::Display& display) { return display.userArea; }
 
@@ -73,12 +73,12 @@ inline float width(const juce::Font& font, const juce::String& words) {
 #endif
 }
 
-/// The whole pixels that they need. M.
+/// Width of `words` in whole pixels, rounded up. M.
 inline int pixels(const juce::Font& font, const juce::String& words) {
     return static_cast<int>(std::ceil(width(font, words)));
 }
 
-/// How high `words` are in lines of that width, in pixels. M.
+/// Height in pixels of `words` in lines of that width. M.
 inline int high(const juce::Font& font, const juce::String& words, int width) {
     juce::AttributedString said{words};
     said.setFont(font);
@@ -104,23 +104,23 @@ inline const juce::Identifier titleProperty{"physvib-title"};
 inline const juce::Identifier tintProperty{"physvib-tint"};
 /// Sliders drawn as mixer faders.
 inline const juce::Identifier faderProperty{"physvib-fader"};
-/// Icons whose tooltip is their name, and is there as soon as the pointer rests.
+/// Icons whose tooltip is their name and appears without the usual delay.
 inline const juce::Identifier iconProperty{"physvib-icon"};
 
-/// Changes what a component shows, and draws it anew if that differs. M.
+/// Sets a displayed value, and repaints the component if it has changed. M.
 template <class T>
 void setShown(juce::Component& component, T& shown, const T& value) {
     if (std::exchange(shown, value) != value) component.repaint();
 }
 
-/// What is read, not used, to a screen reader too. M.
+/// Text that is only read, also by screen readers. M.
 class ReadOut : public juce::Component {
     std::unique_ptr<juce::AccessibilityHandler> createAccessibilityHandler() override {
         return std::make_unique<juce::AccessibilityHandler>(*this, juce::AccessibilityRole::staticText);
     }
 };
 
-/// M.
+/// Tooltips, with a short delay for icons. M.
 class Tips final : public juce::TooltipWindow {
 public:
     explicit Tips(juce::Component& parent)

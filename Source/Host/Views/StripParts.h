@@ -30,7 +30,7 @@ private:
 /// How much the limiter holds back, or the guard, if that is more: a bar that grows downwards to 20 dB. M.
 class LimiterBar final : public juce::Component {
 public:
-    bool set(float limiterGain, float guardGain); ///< whether it is other than before
+    bool set(float limiterGain, float guardGain); ///< true: the display has changed
     bool isHolding() const noexcept { return db_ < -0.05f; }
     bool isGuard() const noexcept { return isGuard_; }
     juce::String decibels() const { return readable::words(isHolding() ? db_ : 0.0, 1); }
@@ -45,9 +45,9 @@ private:
 /// hands may be on the actuators; a double click gives the default.
 class Fader final : public juce::Slider {
 public:
-    /// M.
+    /// Sets range and default in dB, and the title. M.
     void setUp(double leastDb, double mostDb, const juce::String& title, double defaultDb = 0.0);
-    /// From left to right, as a plain slider. M.
+    /// Makes it a plain horizontal slider. M.
     void lieDown() { setSliderStyle(LinearHorizontal), getProperties().remove(faderProperty); }
     void resized() override;
 };
@@ -78,8 +78,8 @@ protected:
     explicit StripParts(const juce::String& label);
     virtual void change(const juce::String& name, const std::function<void(Strip&)>& how) = 0;
     void show(const Strip& strip, double mostG);
-    /// Figures and, above them, meter and fader, from `left` on; buttons between, or in a column beside them,
-    /// which leaves the fader a longer way.
+    /// Places meter and fader from `left` on, above the figures. The buttons lie between them, or with
+    /// `areBeside` in a column, which makes the fader longer.
     void place(juce::Rectangle<int> area, int left, bool areBeside = false);
     /// The fader's gain, or `why` it plays nothing, stands beside the name, unless it is 0 dB or the name
     /// needs the room; the meter's scale is right of the meter.

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Texture tiles and discs are made once, so that they cost as much as plain fills; badges that overlap are
-// moved to the nearest free place.
+// Draws textures, discs and glows from cached pictures, and places badges so that they do not overlap.
 #include "Host/Views/WorldPictures.h"
 #include "Host/Views/Look.h"
 #include <algorithm>
@@ -125,7 +124,7 @@ namespace {
 
 constexpr std::size_t mostKinds = 12; // at most some megabytes
 
-/// A picture in pixels of the display, of which the component has `scale` each, its middle at one of them.
+/// Draws a picture centred at a pixel of the display; `scale`: display pixels per pixel of the component.
 void drawAround(juce::Graphics& g, const juce::Image& picture, juce::Point<int> pixel, float scale,
                 float opacity) {
     const auto corner = (pixel - juce::Point<int>{1, 1} * (picture.getWidth() / 2)).toFloat();
@@ -213,7 +212,7 @@ namespace {
 using Badges = std::vector<juce::Rectangle<float>>;
 constexpr float twoLetters = 24.0f;
 
-/// Of places that differ, the least distance along the farther axis.
+/// Minimum distance of two different places, along the axis where they are farther apart.
 float nearestOf(std::span<const juce::Point<float>> places) {
     float nearest = 2.0f * highestBadge;
     for (std::size_t i = 0; i < places.size(); ++i)
@@ -225,7 +224,7 @@ float nearestOf(std::span<const juce::Point<float>> places) {
     return nearest;
 }
 
-/// Half of the way to each neighbour in its row, or more of it if that one needs less.
+/// Width of a badge: half of the way to each neighbour in its row, or more if the neighbour needs less.
 float widthOf(std::size_t i, std::span<const juce::Point<float>> places, std::span<const float> wanted,
               float least, float high) {
     float width = std::min(widestBadge, wanted[i]);
@@ -269,7 +268,7 @@ Badges badgesAround(std::span<const juce::Point<float>> places, std::span<const 
                           .withCentre(places[i])
                           .constrainedWithin(room));
     }
-    // those in nobody's way first, so that none of them has to move
+    // badges that overlap no other come first, so that they need not move
     std::vector<std::size_t> order(own.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::ranges::stable_partition(order, [&](std::size_t i) {

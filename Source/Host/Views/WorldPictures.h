@@ -56,7 +56,7 @@ void fillWithPicture(juce::Graphics& g, const juce::Path& path, const juce::Affi
 void fillWithMaterial(juce::Graphics& g, const juce::Path& path, const juce::AffineTransform& place,
                       MaterialLook look, bool isHollow);
 
-/// Small discs as pictures that are drawn once: a world of thousands is then as quick as it is to copy them.
+/// Cached pictures of small discs, because copying thousands of them is faster than drawing them.
 class BallPictures {
 public:
     static constexpr float mostPixels = 16.0f; ///< radius, in pixels of the display
@@ -71,8 +71,8 @@ public:
         bool operator==(const Ball&) const = default;
     };
 
-    /// Draws it with its spoke at an angle in radians, clockwise from the right. Place and angle are rounded
-    /// to what is hardly seen. False, and nothing is drawn, if it is too large. M.
+    /// Draws it with its spoke at an angle in radians, clockwise from the right; place and angle are rounded
+    /// to those of a cached picture. False, and nothing is drawn, if the disc is too large. M.
     bool draw(juce::Graphics& g, const Ball& ball, juce::Point<float> centre, float angle);
 
 private:
@@ -89,8 +89,7 @@ private:
     std::vector<Kind> kinds_;
 };
 
-/// Light that fades towards its edge, as pictures of each colour and radius: cheaper than a gradient at every
-/// draw.
+/// Cached pictures of glows by colour and radius, because drawing a gradient each time is slower.
 class GlowPictures {
 public:
     /// Radius in pixels of the component; place and radius are rounded to whole pixels of the display. M.
@@ -107,9 +106,8 @@ private:
 
 constexpr float highestBadge = 30.0f, lowestBadge = 16.0f, widestBadge = 96.0f, betweenBadges = 3.0f;
 
-/// Where the badges of actuators are drawn, so that each can be read: around each place, as high as all can
-/// be and as wide as its text wants and its neighbours let it. Badges lie in `room`; those that would lie
-/// over each other are moved apart. Any thread.
+/// Rectangles of badges, in pixels: centred on their places, of one height, as wide as text and neighbours
+/// allow. Badges that would overlap are moved apart within `room`. Any thread.
 std::vector<juce::Rectangle<float>> badgesAround(std::span<const juce::Point<float>> places,
                                                  std::span<const float> textWidths,
                                                  juce::Rectangle<float> room);

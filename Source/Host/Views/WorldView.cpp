@@ -14,7 +14,7 @@ namespace {
 constexpr double hitMs = 450.0;         // how long a hit glows
 constexpr std::size_t maxHits = 48;     // simultaneous; more would only glare
 constexpr std::size_t maxTraces = 400;  // for 30 sliding pairs
-constexpr double leastGain = 0.02;      // of an actuator that plays a hit
+constexpr double leastGain = 0.02;      // with less, an actuator plays no hit
 constexpr float wallPixels = 11.0f;     // bodies around the field are drawn as a frame of this width
 constexpr float lowBadge = 24.0f;       // has small text
 constexpr float minSpokePixels = 4.0f;  // radius of a circle whose rotation is seen
@@ -295,7 +295,7 @@ bool WorldView::drawMaterial(juce::Graphics& g, const FixtureDescription& fixtur
     return look.has_value();
 }
 
-// Of a plain circle that is small; false: nothing was drawn.
+// Draws a small plain circle from a cached picture; false: nothing was drawn.
 bool WorldView::drawSmall(juce::Graphics& g, const FixtureDescription& fixture, juce::Colour colour,
                           double angle, const juce::AffineTransform& place, const Map& at) {
     const auto* circle = std::get_if<CircleShape>(&fixture.shape);
@@ -348,7 +348,7 @@ void WorldView::drawBodies(juce::Graphics& g, const Map& at) {
 
 // All grains of one update form one segment of a contact's path, which starts where the last one ended.
 void WorldView::addHit(const CollisionEvent& event, double nowMs, bool isFelt) {
-    if (isFelt && std::ranges::find(muted_, true) != muted_.end()) { // whether another one plays it
+    if (isFelt && std::ranges::find(muted_, true) != muted_.end()) { // whether an unmuted one plays it
         PhantomPanner::Gains gains{};
         panner_.gainsAt(event, gains);
         isFelt = false;
@@ -370,11 +370,11 @@ void WorldView::addHit(const CollisionEvent& event, double nowMs, bool isFelt) {
     if (std::abs(event.amplitude) > std::abs(last->amplitude)) last->amplitude = event.amplitude;
 }
 
-// Drawn over the outlines that they follow, with a white core like hits. Even the weakest are visible.
 float WorldView::ageOf(double shownAtMs) const {
     return static_cast<float>(juce::jlimit(0.0, 1.0, (nowMs_ - shownAtMs) / hitMs));
 }
 
+// Traces have a white core, as hits, and lie over the outlines that they follow. Even weak ones show.
 void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
     for (const auto& trace : traces_) {
         const float level = levelOf(trace.amplitude),
@@ -400,15 +400,14 @@ void WorldView::drawTraces(juce::Graphics& g, const Map& at) const {
 
 void WorldView::drawHits(juce::Graphics& g, const Map& at) const {
     const auto amber = shade(*this, Shade::now);
-    const bool isLight = shade(*this, Shade::well).getPerceivedBrightness() > 0.5f; // where thin lines are
-                                                                                    // faint
+    const bool isLight = shade(*this, Shade::well).getPerceivedBrightness() > 0.5f; // needs thick lines
     for (const auto& hit : hits_) {
         const float age = ageOf(hit.shownAtMs), level = levelOf(hit.event.amplitude),
                     fade = (1.0f - age) * std::sqrt(level);
         const auto centre = at.at(hit.event.x, hit.event.y);
         const float radius = 10.0f + 34.0f * level * (0.5f + 0.5f * age);
         const auto ring = juce::Rectangle<float>{1.5f * radius, 1.5f * radius}.withCentre(centre);
-        if (!hit.isFelt) { // a glow says that it is
+        if (!hit.isFelt) { // only what is felt glows
             g.setColour(shade(*this, Shade::muted).withAlpha(1.0f - age));
             g.drawEllipse(ring, 1.4f);
             continue;
@@ -461,7 +460,7 @@ void drawDashes(juce::Graphics& g, juce::Rectangle<float> badge) {
 } // namespace
 
 void WorldView::drawEnchanters(juce::Graphics& g) const {
-    for (int j = 0; j < layout_.geometry.count; ++j) // where those are that had to move
+    for (int j = 0; j < layout_.geometry.count; ++j) // lines to the true places of moved badges
         if (const juce::Line<float> way{placeOfEnchanter(j), badgeAt(j).getCentre()};
             !badgeAt(j).contains(way.getStart())) {
             g.setColour(enchanterColour(*this, j));
@@ -490,7 +489,7 @@ void WorldView::drawEnchanters(juce::Graphics& g) const {
         if (!isMuted(j) || isWithoutOutput(j)) continue;
         for (const auto& [corner, other] : {std::pair{badge.getBottomLeft(), badge.getTopRight()},
                                             {badge.getTopRight(), badge.getBottomLeft()}})
-            g.drawLine({corner, corner + (other - corner) * 0.3f}, 2.0f); // struck out, its letter is not
+            g.drawLine({corner, corner + (other - corner) * 0.3f}, 2.0f); // strikes out the corners
     }
 }
 

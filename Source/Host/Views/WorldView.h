@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // View of the world as it is currently felt: bodies, hits as flashes, actuators with their levels. The user
-// can pull bodies and move actuators where that is enabled.
+// can drag bodies and actuators where that is enabled. Also the physical size of displays.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
@@ -24,7 +24,7 @@ struct WorldMoment {
     std::int64_t aheadNs = 0;                                ///< output latency of these poses
     std::span<const CollisionEvent> hits;                    ///< that have been played
     std::span<const float> peaks;                            ///< per actuator, 1 = full scale
-    bool isFelt = true;                                      ///< false: these hits are seen, and are silenced
+    bool isFelt = true;                                      ///< false: the hits are silenced and only drawn
     double nowMs = juce::Time::getMillisecondCounterHiRes(); ///< time of the picture, for ages of glows
 };
 
@@ -68,19 +68,19 @@ public:
     void setRoom(juce::BorderSize<int> pixels) { room_ = pixels, resized(), repaint(); }
     /// Width kept free around the field, for the actuators on its edge. M.
     void setMargin(int pixels) { margin_ = pixels; }
-    /// Draws a ring around it; -1: none.
+    /// Draws that actuator as selected; -1: none. M.
     void select(int enchanter) { setShown(*this, selected_, enchanter); }
     /// Draws a cross at a place in the field; none: no cross. M.
     void showSpot(std::optional<FieldShare> spot) { setShown(*this, spot_, spot); }
 
     // Callbacks for mouse input; without a callback the action is disabled. M.
-    /// In the field's axes; the point on the body in metres of the field.
+    /// After the drag of a body: the way on the screen in the field's axes, and the body's point, in metres.
     std::function<void(const std::string& body, Vector screenMetres, Vector pointMetres)> onPull;
     /// With Shift, while the body is held: its point, as for onPull, and the mouse in the field.
     std::function<void(const std::string& body, Vector pointMetres, Vector toMetres)> onHold;
     std::function<void(const std::string& body)> onLetGo;      ///< of the body that was held
     std::function<juce::String(double screenMetres)> pullText; ///< text beside the line while pulling
-    /// During the drag.
+    /// While an actuator is dragged: its new place.
     std::function<void(int enchanter, FieldShare to)> onMove;
     std::function<void(int enchanter)> onDetach; ///< dropped outside
     std::function<void(FieldShare at)> onAttach;
@@ -115,7 +115,7 @@ public:
     juce::Point<float> placeOfBody(const std::string& name) const; ///< outside the view if the body is absent
     bool isHolding() const noexcept { return !grip_.held.empty(); }
     bool isDragging() const noexcept { return grip_.body >= 0 || grip_.enchanter >= 0; }
-    void cancelDrag(); ///< what is dragged is let go where it is, and not thrown
+    void cancelDrag(); ///< releases what is dragged without throwing it
 
     /// For components that draw over this view. Places in metres of the field; they may lie outside it. M.
     juce::Point<float> placeOfMetres(Vector at) const { return map().at(at.x, at.y); }
@@ -130,7 +130,7 @@ public:
         FieldShare at;
     };
     Target targetAt(juce::Point<float> place) const;
-    /// Of the actuators of the layout that is shown, which lags behind the session's by up to a refresh.
+    /// In pixels, of the displayed layout, which may be one refresh older than the session's.
     const std::vector<juce::Rectangle<float>>& badges() const;
     juce::Rectangle<float> badgeAt(int enchanter) const {
         return badges()[static_cast<std::size_t>(enchanter)];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws recordings in the material's colour, and the fitted mode in the accent colour.
+// Measurement and plots of an impact, the fitted mode in the accent colour; controls of surface grains.
 #include "Live/Recordings/ReadRecording.h"
 #include "Measure/HitExcerpt.h"
 #include "Measure/PartialFit.h"

@@ -347,7 +347,7 @@ void MaterialsTab::resized() {
     new_->setBounds(headArea_.withLeft(headArea_.getRight() - 44));
     const bool isTall = area.getHeight() >= tallPixels;
     const int line = isTall ? rowHeight : rowHeight - 4, between = isTall ? 6 : 4;
-    // in a low tab, a recording has its plots, and rows come first
+    // a low tab has plots only of a recording; rows of the list come first
     const bool hasPlots = isTall || isDropping_ || isMeasuring() || recordingOf(chosenIndex()) != nullptr;
     const int room = area.getHeight() - 3 * line - 4 * between, all = static_cast<int>(order_.size()),
               plots = hasPlots ? std::max(70, std::min({230, room * 52 / 100, room - 5 * rowPixels})) : 0;

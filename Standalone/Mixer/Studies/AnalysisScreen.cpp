@@ -119,7 +119,7 @@ void AnalysisScreen::run(const std::string& name) {
     repaint();
 }
 
-// Uses the look of its window.
+// The text has the colours of the current window.
 void AnalysisScreen::showWords() {
     words_.clear();
     const auto say = [this](const juce::String& words, Shade tone) {

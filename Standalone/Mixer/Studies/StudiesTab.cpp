@@ -87,7 +87,7 @@ std::string displayScaleFault(const Protocol& protocol, double displayWidthMetre
     return {};
 }
 
-/// The layout of the most actuators, with its name.
+/// The layout with the most actuators, and its name.
 std::pair<std::string, LayoutDescription> largestLayout(const Protocol& protocol) {
     std::pair<std::string, LayoutDescription> largest;
     for (const ConditionPlan& condition : protocol.conditions)
@@ -250,7 +250,7 @@ void StudiesTab::setParticipant(const juce::String& code, int number) {
 
 void StudiesTab::setFolder(const juce::File& folder) {
     folder_.setText(folder.getFullPathName(), false);
-    folder_.moveCaretToEnd(); // its name is seen, however long the way to it
+    folder_.moveCaretToEnd(); // shows the folder's name, even of a long path
     look();
 }
 
@@ -395,7 +395,7 @@ void StudiesTab::say(const juce::String& words, Shade shade) {
     repaint();
 }
 
-// More actuators than the mixer has, or headphones, cannot be had by a choice of outputs.
+// Offers a layout or another study if the mixer, or headphones, have too few actuators.
 void StudiesTab::offerLayout() {
     constexpr std::size_t ears = 2;
     const auto [name, layout] = largestLayout(*protocol_);
@@ -421,7 +421,7 @@ void StudiesTab::offerLayout() {
     model_.messages().show(std::move(offer));
 }
 
-/// A mixer opens at a low level.
+/// Offers the master level of the previous trials, because a mixer opens at a low level.
 void StudiesTab::offerLevel(double db) {
     const auto words = number(db, 1) + " dB";
     model_.messages().show({"The trials before had a master level of " + words,
@@ -443,7 +443,7 @@ std::string StudiesTab::begin() {
     auto* host = findParentComponentOfClass<CardHost>();
     if (screen_ || analysis_ || !protocol_ || host == nullptr) return "expected a mixer without a study";
     if (code_.isEmpty()) return refuse("expected a participant's code");
-    stopCheck(); // one that is not made yet: a program called this, as the button waits for the check
+    stopCheck(); // it may still run if a program called this; the button waits for its end
     if (auto fault = faultOf(run()); !fault.empty()) return refuse(fault);
     if (auto fault = outputsFault(*protocol_, model_); !fault.empty()) return offerLayout(), refuse(fault);
     if (auto fault = feltFault(*protocol_, model_); !fault.empty()) return refuse(fault);
@@ -472,7 +472,7 @@ std::string StudiesTab::begin() {
     auto unlike = study->apparatusFault(apparatus);
     if (const auto db = study->otherLevelDb(apparatus))
         offerLevel(*db);
-    else if (!unlike.empty()) // where it is read whole
+    else if (!unlike.empty()) // which has room for all of it
         model_.report(utf8(unlike));
     if (unlike.empty()) unlike = study->begin(apparatus);
     if (!unlike.empty()) return model_.device().listening().endStudy(), refuse(unlike);
@@ -494,7 +494,7 @@ void StudiesTab::analyse(std::vector<juce::File> files) {
     host->setScreen(analysis_.get());
 }
 
-// It comes later, when the tab may be gone.
+// The callback may run after the tab was deleted.
 std::function<void()> StudiesTab::ending() {
     return [tab = SafePointer{this}] {
         if (tab != nullptr) tab->end();

@@ -91,7 +91,7 @@ public:
 
     void mixChanged() override;
     int minHeight(int) const override { return controlsHeight; }
-    /// The check of the protocol; none while it is made. It is made while the tab is seen.
+    /// Result of the check of the protocol; none while it runs. It runs while the tab is visible.
     const std::optional<StudyCheck>& check() const noexcept { return check_; }
 
     void refresh(const MixerMoment& moment) override {
@@ -106,19 +106,19 @@ public:
 
 private:
     static constexpr int controlsHeight = 256; // with a line of advice
-    void pickProtocol();
+    void pickProtocol();                       ///< handles the list of protocols
     static bool isDone(const StudyRun& run, const std::vector<TrialRecord>& records);
     void offerLayout();
     void offerLevel(double db);
     void chooseNoise(const std::vector<int>& outputs);
-    void look();
-    void listNoise();
-    void pickWords();
+    void look();      ///< shows the state of the trial file, and what Begin would do
+    void listNoise(); ///< lists the free outputs
+    void pickWords(); ///< handles the list of languages
     ListeningSettings listening() const;
-    void say(const juce::String& words, Shade shade);
+    void say(const juce::String& words, Shade shade); ///< beside Begin
     void stopCheck();
     void updateCheck();
-    void showFindings();
+    void showFindings();  ///< opens the report of the check
     StudyRun run() const; ///< the selection; precondition: there is a protocol
 
     MixerModel& model_;
@@ -135,7 +135,7 @@ private:
     juce::TextEditor code_, number_, folder_;
     std::unique_ptr<juce::TextButton> browse_, analyse_, findings_;
     std::optional<StudyCheck> check_; // of protocol_
-    bool isBeginWanted_ = false;      // once there is that
+    bool isBeginWanted_ = false;      // as soon as the check is finished
     MasterStrip master_{model_, true};
     juce::TextButton begin_{"Begin"};
     juce::Rectangle<int> aboutArea_, levelArea_;

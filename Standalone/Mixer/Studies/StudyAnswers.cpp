@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layout of the answer component and its confirm button.
+// The answer pane and its window, and answers by label, choice, rating, level, number and words.
 #include "Host/Views/WorldView.h"
 #include "Io/Text/NumberText.h"
 #include "Mixer/Studies/StudyParts.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Answers on the field: a cell of a grid, or any place.
+// Answers on the field: a cell of a grid, any place, or a pattern of pulses.
 #include "Mixer/Studies/StudyParts.h"
 #include "Stimuli/Stimulus.h"
 #include <map>

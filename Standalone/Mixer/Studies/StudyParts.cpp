@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws the common parts of participants' screens, and moves the focus by arrow keys.
+// Common parts of participants' screens: buttons, focus by arrow keys, and translated texts.
 #include "Mixer/Studies/StudyParts.h"
 #include "Io/Text/CsvText.h"
 

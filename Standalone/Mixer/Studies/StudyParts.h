@@ -14,10 +14,10 @@ namespace physvib {
 /// Left and right margin of the screens that fill the window, in pixels.
 constexpr int pageInset = 40;
 
-/// Covers its parent, with a button that silences: what is behind it goes on. Message thread.
+/// Covers its parent, with a silence button, because the session behind it keeps running. Message thread.
 class FullScreen : public juce::Component {
 public:
-    std::function<void()> onClose; ///< it is done or is left
+    std::function<void()> onClose; ///< the screen is finished or left
     void parentSizeChanged() override {
         if (auto* parent = getParentComponent()) setBounds(parent->getLocalBounds());
     }
@@ -25,7 +25,7 @@ public:
 protected:
     FullScreen(MixerModel& model, const juce::String& title);
     virtual void refresh() = 0;
-    void showSilence(const juce::String& on, const juce::String& off); ///< on the button
+    void showSilence(const juce::String& on, const juce::String& off); ///< texts of the button
     void close() const; ///< later, because it deletes this component
 
     MixerModel& model_;
@@ -59,7 +59,7 @@ juce::Rectangle<float> fieldIn(juce::Rectangle<float> area, const EnchanterLayou
 /// Place of an actuator on the field: x to the right, y downwards, 0 to 1.
 FieldPlace placeOf(const EnchanterLayout& layout, int enchanter);
 juce::Point<float> pointOn(const juce::Rectangle<float>& field, const FieldPlace& place);
-/// Of an arrow key, to the right and down; (0, 0): it is none.
+/// Direction of an arrow key, x to the right and y down; (0, 0): another key.
 juce::Point<int> wayOf(const juce::KeyPress& key);
 /// Moves the focus to the nearest child of `parent` in the direction of an arrow key; false for other keys.
 bool moveFocus(juce::Component& parent, const juce::KeyPress& key);
@@ -77,7 +77,7 @@ public:
 
     /// Question of a trial: the protocol's, or the task's default.
     juce::String question(const SessionPlan& session, const ConditionPlan& condition) const;
-    /// Course of a session, in a few lines.
+    /// What the participant does in a session, in a few lines.
     juce::String instruction(const SessionPlan& session, const ConditionPlan& condition) const;
     /// "the first", for the parts to choose from.
     juce::String ordinal(int part) const;
@@ -161,12 +161,12 @@ private:
 std::unique_ptr<StudyAnswer> makeStudyAnswer(const Experiment& experiment, const LayoutDescription& layout,
                                              const StudyWords& words);
 
-/// A, B, C ...: what is rated side by side has no other name. Any thread.
+/// The letter (A, B, C ...) that names a part rated side by side. Any thread.
 inline juce::String partLetter(std::size_t part) {
     return juce::String::charToString(static_cast<juce::juce_wchar>('A' + part));
 }
 
-// Implemented in files of their own:
+// Answers on the field, in StudyFieldAnswers.cpp:
 std::unique_ptr<StudyAnswer> makePatternAnswer(const ConditionPlan& condition,
                                                const LayoutDescription& layout, const StudyWords& words);
 std::unique_ptr<StudyAnswer> makeCellAnswer(const GridSet& grid, const LayoutDescription& layout);
@@ -188,7 +188,7 @@ public:
     void setConfirm(bool isSeen, bool isEnabled, const juce::String& words);
     bool confirm();      ///< as a click on the button; false if it is disabled
     void focusConfirm(); ///< then Enter confirms
-    /// Shown where no other component shows it.
+    /// Displayed only in a separate window.
     void setQuestion(const juce::String& question) { setShown(*this, question_, question); }
     void setStandsAlone(bool standsAlone) { standsAlone_ = standsAlone; }
     bool standsAlone() const noexcept { return standsAlone_; }

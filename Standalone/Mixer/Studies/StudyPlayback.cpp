@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays a stimulus in the mixer's session: controls first, then its events slightly later.
+// Playback of stimuli and worlds of a study, markers for other recorders, and the pane of a world.
 #include "Core/Units.h"
 #include "Io/Disk/FileClash.h"
 #include "Io/Text/CleanText.h"
@@ -13,12 +13,12 @@ namespace physvib {
 namespace {
 
 using Kind = RenderControl::Kind;
-constexpr std::int64_t leadNs = 50'000'000; // gains are ramped, and may come after an event of their time
+constexpr std::int64_t leadNs = 50'000'000; // of events after gains, which are ramped and may come late
 
-// What is compared with the plan: actuators at most so far below the loudest one, above what a float keeps.
+// Only actuators with at least this share of the loudest planned peak, and this peak, are compared.
 constexpr double comparedShare = 0.01, minCompared = 1e-4, toleranceDb = 1.0;
-constexpr double longestPauseMs = 1e-6 * DevicePulse::goneNs + 500.0; // then nothing of before is played
-constexpr double maxPlannedSeconds = 60.0; // as receipts are kept; a plan is rendered while one waits
+constexpr double longestPauseMs = 1e-6 * DevicePulse::goneNs + 500.0; // what was posted before is then lost
+constexpr double maxPlannedSeconds = 60.0; // how long receipts are kept; rendering a plan takes time, too
 
 constexpr const char* noControls = "The session took no more controls: expected a device that plays";
 
@@ -34,7 +34,7 @@ juce::StringArray libraryNames() {
 }
 
 constexpr std::int64_t fadeNs = 100'000'000;  // longer than any fade-out by limits::stealFadePerSecond
-constexpr std::int64_t askedNs = 500'000'000; // of receipts at a time, which are kept for a minute
+constexpr std::int64_t askedNs = 500'000'000; // receipts are read for that long at once
 
 } // namespace
 
@@ -147,8 +147,8 @@ std::vector<double> StudySound::plannedPeaks(const FeltStimulus& stimulus) const
     return peaks;
 }
 
-// After a short pause of the device, what was posted goes on: so the end is awaited, though it is lost
-// already.
+// After a short pause the device continues with what was posted, so the end is awaited even if the playback
+// is already incomplete.
 void StudySound::update() {
     if (course_ != Course::plays) return;
     wasSilent_ = wasSilent_ || model_.isSilent();
@@ -162,7 +162,7 @@ void StudySound::update() {
         heldSeconds_ = isOver ? seconds_ : std::clamp(1e-3 * (nowMs() - beganAtMs_), 0.0, seconds_);
 }
 
-/// The level is of the receipts, too: they know the session's times whatever rate the device had before.
+/// Compares the receipts with the plan, and stores their level in felt_.
 Course StudySound::judged() {
     felt_ = {};
     const double loudest = planned_.empty() ? 0.0 : std::ranges::max(planned_);
@@ -293,7 +293,7 @@ void StudyWorld::askReceipts(std::int64_t untilNs) {
     std::int64_t endNs = untilNs;
     for (std::size_t j = 0; j < left.size(); ++j) {
         const Receipt receipt = model_.output().left(checkedNs_, untilNs, static_cast<int>(j), number_);
-        if (!receipt.isOver) return; // a block is between the session and its receipt
+        if (!receipt.isOver) return; // the last block has no receipt yet
         if (!receipt.isRunning) course_ = Course::lost;
         endNs = receipt.endNs; // no bin is added twice
         if (!isMeasured) continue;
@@ -348,10 +348,10 @@ WorldMoment StudyWorld::look() {
                      std::max(1, model_.output().sampleRateHz());
     const std::int64_t now = session_->status().sessionNs, felt = session_->timeline().nextFeltNs();
     if (felt >= checkedNs_ + askedNs || !model_.output().isPlaying()) askReceipts(felt);
-    if (model_.isSilent() && seconds_ > 0.0 && isMoving()) course_ = Course::lost; // as a sound: felt again
-    if (course_ == Course::lost) return finish(), moment; // a device that is gone plays no end
+    if (model_.isSilent() && seconds_ > 0.0 && isMoving()) course_ = Course::lost; // to be repeated
+    if (course_ == Course::lost) return finish(), moment; // a stopped device plays no fade-out
     if (isMoving()) {
-        session_->world().setSlowness(model_.isSilent() ? 0 : 1); // what one moves stands still in silence
+        session_->world().setSlowness(model_.isSilent() ? 0 : 1); // a world pauses while silent
         if (!model_.isSilent())
             feltNs_ = std::min(feltNs_ + now - seenNs_, std::max<std::int64_t>(0, now - moment.aheadNs));
         if (seconds_ > 0.0 && feltSeconds() >= seconds_) end();

@@ -33,7 +33,7 @@ std::string jobFault(MixerModel& model, const Protocol& protocol, const Conditio
     return world ? StudyWorld::refusal(model, world.value) : world.error;
 }
 
-/// "1:05".
+/// Minutes and seconds, such as "1:05".
 juce::String minutesText(double seconds) {
     const int whole = static_cast<int>(std::ceil(seconds));
     return juce::String{whole / 60} + ":" + juce::String{whole % 60}.paddedLeft('0', 2);
@@ -179,7 +179,7 @@ void StudyScreen::showTrial() {
     answer->onChange = [this] { refresh(); };
     if (isExploring()) answer->mark(experiment().explored());
     answers_.show(std::move(answer));
-    if (const WorldSet* const set = worldSet()) { // of the first button, paused until it is played
+    if (const WorldSet* const set = worldSet()) { // previews the first button's world
         pane_.setWorldScale(set->displayScale);
         const auto jobs = jobsOf(study_->protocol(), {experiment().trial(), answers_->answer()});
         const auto world = feltWorld(std::get<WrittenCall>(jobs.front()), study_->protocol().folder);
@@ -240,7 +240,7 @@ void StudyScreen::goOn() {
     case Page::pause:
         if (restLeft() > 0.0) return;
         if (study_->isResting()) note(studyEvents::goOn);
-        wasRight_.reset(), ranOut_ = false; // they stood on this page
+        wasRight_.reset(), ranOut_ = false; // this page has shown them
         return showTrial();
     case Page::paused: return note(studyEvents::goOn), showNext();
     case Page::trial: return;
@@ -281,11 +281,11 @@ bool StudyScreen::keyPressed(const juce::KeyPress& key) {
     return true; // no key reaches the mixer below
 }
 
-/// Time for an answer runs from where one is accepted; while nothing can be felt it stands still.
+/// Counts the time for an answer: from when one is accepted, except while nothing can be felt.
 bool StudyScreen::isTimeOver() {
     const double passed = 1e-3 * (nowMs() - std::exchange(updatedMs_, nowMs()));
     if (!progress_->canAnswer())
-        openSeconds_.reset(); // of a part that is to be felt again
+        openSeconds_.reset(); // a part must be felt again
     else if (openSeconds_ && !model_.isSilent() && !isWaiting())
         *openSeconds_ += passed;
     else if (!openSeconds_ && canAnswer())
@@ -343,7 +343,7 @@ std::string StudyScreen::begin(std::size_t part) {
 /// Decides by the receipts whether the play that is over counts.
 void StudyScreen::settle(Course course) {
     model_.exposure().update();
-    // stored now: a device that restarts later knows it no more
+    // stored now, because a restart of the device clears the receipts
     felt_[part_] = worldSet() != nullptr ? pane_.world().felt() : sound_.felt();
     int& unlike = unlike_[part_];
     unlike = course == Course::left ? 0 : course == Course::unlike ? unlike + 1 : unlike;
@@ -466,7 +466,7 @@ void StudyScreen::updateTrial() {
     playSequence();
     if (exploring_ && !isFeeling() && progress_->plays() > 0) return submit(*exploring_);
     if (Answer late; isTimeOver()) return late.ranOut = true, submit(late);
-    // who knows already answers while the last part plays, and confirms after it
+    // an answer may be given while the last part plays, and is confirmed after it
     const bool isOpen =
         !model_.isSilent() && (isFeeling() ? progress_->canAnswer() && !isExploring()
                                            : progress_->canAnswer() || answers_->isOpen() || isExploring());
@@ -566,13 +566,13 @@ juce::String StudyScreen::headline() const {
     return feedback() + say_(experiment().session().isTraining ? "Training" : "The study");
 }
 
-/// On the answer before, for the page that follows it.
+/// Feedback on the previous answer.
 juce::String StudyScreen::feedback() const {
     if (ranOut_) return say_("Time was over.") + "  ";
     return wasRight_ ? say_(*wasRight_ ? "That was right." : "That was wrong.") + "  " : juce::String{};
 }
 
-// News is no reason why a participant feels nothing, nor is what the experimenter was told before.
+// Why a participant feels nothing: neither news nor what the experimenter knew before the study counts.
 juce::String StudyScreen::wrong() const {
     return model_.isNews() || model_.trouble() == troubleBefore_ ? model_.device().trouble()
                                                                  : model_.trouble();

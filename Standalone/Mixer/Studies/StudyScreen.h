@@ -17,16 +17,16 @@ namespace physvib {
 /// Empty, or that the mixer has fewer actuators than a layout wants. Any thread.
 std::string tooFew(const std::string& layout, int wanted, int there);
 
-/// How what was played last fared, by the receipts of the output.
+/// Status of the last playback, by the receipts of the output.
 enum class Course {
     none,   ///< nothing was played yet, or it was stopped
-    plays,  ///< it is not over
+    plays,  ///< it is playing
     left,   ///< every actuator got all of it, in one piece and within 1 dB of the plan
     lost,   ///< it was cut off, silenced, or missed an actuator
-    unlike, ///< it left as a whole, at another level than planned
+    unlike, ///< it was played whole, at another level than planned
 };
 
-/// Message thread. The mixer state must not be edited during its lifetime.
+/// Plays stimuli in the mixer's session, which must not be edited during its lifetime. Message thread.
 class StudySound {
 public:
     explicit StudySound(MixerModel& model);
@@ -42,13 +42,13 @@ public:
     /// Plays it; empty, or an error. Not while another plays: stimuli play to their end, as in the rendered
     /// file.
     std::string play(const FeltStimulus& stimulus);
-    /// Looks at the receipts. To be called often; isPlaying() changes here alone.
+    /// Reads the receipts; only this changes isPlaying(). Call it at every refresh.
     void update();
     Course course() const noexcept { return course_; }
     bool isPlaying() const noexcept { return course_ == Course::plays; }
-    /// Of the strongest actuator, of the last stimulus that is over.
+    /// Level of the strongest actuator in the last stimulus that is over.
     const FeltLevel& felt() const noexcept { return felt_; }
-    double feltSeconds() const; ///< of the last stimulus, so far
+    double feltSeconds() const; ///< duration of the last stimulus so far
     /// Time until the last stimulus is felt; negative afterwards.
     double startsInSeconds() const { return 1e-3 * (beganAtMs_ - nowMs()); }
     /// Fades out sounding modes and mutes pending events until the next stimulus or the mixer's return.
@@ -67,7 +67,7 @@ private:
     std::vector<float> gains_;                                                   // last posted values
     Course course_ = Course::none;
     bool isMuted_ = false;                  // by stop()
-    bool wasSilent_ = false;                // at any time of it
+    bool wasSilent_ = false;                // at any time of the stimulus
     std::int64_t fromNs_ = 0, untilNs_ = 0; // of the last stimulus, in session time
     std::uint32_t session_ = 0;
     std::vector<EnchanterDescription> actuators_; // of its layout
@@ -121,7 +121,7 @@ public:
     bool isMoving() const noexcept { return isPlaying() && stoppedNs_ < 0; }
     /// Duration of the current or last world, without silences.
     double feltSeconds() const noexcept { return 1e-9 * static_cast<double>(feltNs_); }
-    FeltLevel felt() const; ///< of the strongest actuator, by receipts: over the set length, or what was felt
+    FeltLevel felt() const; ///< of the strongest actuator by receipts, over the set or else the felt time
 
     /// Stops the world; sounding modes fade out.
     void end();
@@ -197,7 +197,7 @@ private:
     double worldScale_ = 0.0;
 };
 
-/// Keys: Space plays, Esc silences; the answer component has its own.
+/// The participant's screen. Keys: Space plays, Esc silences; the answer component has more.
 class StudyScreen final : public FullScreen {
 public:
     /// With `answersElsewhere`, answers are given in a separate window, on another display if there is one.
@@ -224,24 +224,24 @@ public:
     void resized() override;
 
 private:
-    void showNext();
+    void showNext(); ///< the next trial, break or closing page
     void showPage(Page page);
     void showTrial();
-    void showParts();
-    void fail(const std::string& reason);
-    void note(std::string_view event) { model_.reportFault(study_->note(event)); } ///< into the file of times
-    void goOn();
-    void leave();
+    void showParts();                     ///< makes the buttons of the trial's parts
+    void fail(const std::string& reason); ///< stops playback and shows the error page
+    void note(std::string_view event) { model_.reportFault(study_->note(event)); } ///< to the file of times
+    void goOn();  ///< leaves the current page, as its button and Enter do
+    void leave(); ///< closes the screen, unless a stimulus plays
     void play(std::size_t part);
-    std::string begin(std::size_t part);
+    std::string begin(std::size_t part); ///< starts the playback; empty, or an error
     void playSequence();
-    void pause();
-    void asked();
+    void pause(); ///< ends an interactive world, so that it can be answered
+    void asked(); ///< a response was chosen
     void confirm();
-    void submit(Answer answer);
+    void submit(Answer answer); ///< stores it and shows what follows
     void submitComment();
-    void settle(Course course);
-    void markFelt();
+    void settle(Course course); ///< counts the play that is over, or has it repeated
+    void markFelt();            ///< sends the marker of a started part once its time is known
     std::string markerWords(const char* what) const;
     double exposure() const;
     bool isExposed() const { return exposure() >= study_->protocol().exposureLimit; }
@@ -256,7 +256,7 @@ private:
     bool hasHands() const { return worldSet() != nullptr && worldSet()->hasHands; }
     bool isAnswerSeen() const;
     Course course() const { return worldSet() != nullptr ? pane_.world().course() : sound_.course(); }
-    /// Nothing is posted while no samples run: it would wait, and be felt at once later.
+    /// The device is stopped: what is posted now would be played all at once when it runs again.
     bool isWaiting() const { return !model_.output().isPlaying(); }
     /// Duration felt of the current or last part.
     double feltSeconds() const {
@@ -281,7 +281,7 @@ private:
     const double squaresBefore_; // of the participant's day in g^2 s, before what is measured from now on
     StudyAnswerPane answers_;
     StudyMarkers markers_;
-    const juce::String troubleBefore_;           // told to the experimenter, not to the participant
+    const juce::String troubleBefore_;           // which the experimenter knows
     bool isToBeMarked_ = false;                  ///< a part was started, and its marker is not sent yet
     std::unique_ptr<juce::Component> elsewhere_; // the separate window for answers
     Page page_ = Page::pause;
@@ -290,19 +290,19 @@ private:
     // current trial:
     LayoutDescription layout_;
     std::optional<TrialProgress> progress_;
-    std::optional<Answer> exploring_; // being played, to be recorded afterwards
+    std::optional<Answer> exploring_; // its stimulus plays, then it is recorded
     std::vector<std::unique_ptr<BigButton>> parts_;
     std::optional<std::size_t> wanted_; // a world that starts when the previous one has faded out
     std::vector<std::string> sessions_; // sessions felt in this trial
     std::vector<FeltLevel> felt_;       // by part
     std::size_t part_ = 0;
     double endedMs_ = 0.0;              // when that part ended
-    std::optional<bool> wasRight_;      // the answer before, if the session gives feedback
-    bool ranOut_ = false;               // the trial before
-    std::optional<double> openSeconds_; // since an answer is accepted
+    std::optional<bool> wasRight_;      // the previous answer, if the session gives feedback
+    bool ranOut_ = false;               // time of the previous trial
+    std::optional<double> openSeconds_; // for which an answer has been accepted
     double updatedMs_ = 0.0;
     std::vector<int> unlike_; // by part: plays at another level than planned
-    bool isLost_ = false;     // the last play did not leave, and is to be felt again
+    bool isLost_ = false;     // the last play was incomplete and must be repeated
     double limiterDb_ = 0.0;  // maximum gain reduction observed in this trial
     double counted_ = 0.0, firstFeltMs_ = 0.0, restEndsMs_ = 0.0;
 
@@ -313,14 +313,14 @@ private:
     juce::Rectangle<int> headArea_, questionArea_, bodyArea_, keysArea_;
 };
 
-/// Settings of the apparatus now. Message thread.
+/// Current device, levels and outputs, as trial files record them. Message thread.
 Apparatus apparatusOf(MixerModel& model);
 
 /// Empty, or why the study cannot be played in this mixer, checked with the first stimulus of each condition.
 /// Message thread.
 std::string feltFault(const Protocol& protocol, MixerModel& model);
 
-/// Empty, or why the study's layouts cannot be felt on the outputs that there are now. Fast. Message thread.
+/// Empty, or why the current outputs cannot play the study's layouts. Renders nothing. Message thread.
 std::string outputsFault(const Protocol& protocol, const MixerModel& model);
 
 } // namespace physvib

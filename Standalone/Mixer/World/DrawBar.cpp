@@ -51,13 +51,13 @@ void DrawBar::show() {
 namespace {
 constexpr int buttonCount = static_cast<int>(drawTools.size()) + 1;
 
-/// Hands, shapes, joints, and what takes away.
+/// Group of a button: 0 hand and selection, 1 shapes, 2 joints, 3 eraser and grid.
 int groupOf(int button) { return button < 2 ? 0 : button < 9 ? 1 : button < 14 ? 2 : 3; }
 
 constexpr std::array<RainPattern, 7> rainPatterns{
     {{0, false}, {5, false}, {20, false}, {50, false}, {5, true}, {20, true}, {50, true}}};
 
-/// What a trial of materials depends on: which kinds of surfaces the scene has.
+/// Kinds of surfaces (moving, material, haptic source), on which whyNotFelt() depends.
 std::set<std::tuple<bool, int, bool>> surfacesOf(const Scene& scene) {
     std::set<std::tuple<bool, int, bool>> all;
     for (const BodyDescription& body : scene.bodies)
@@ -69,7 +69,7 @@ std::set<std::tuple<bool, int, bool>> surfacesOf(const Scene& scene) {
 bool vibrates(const Scene& scene, const BodyDescription& body) {
     return nth(scene.materials, body.fixtures[0].material).frequencyHz > 0.0;
 }
-/// What a swatch or a button asks of a material, in its menu or at once.
+/// Opens the menu of a material, or directly the editor of its name and colour.
 void editMaterial(juce::Component& from, bool isMenu, MixerModel& model, int material,
                   const std::function<void(int)>& made, const MaterialPage& page) {
     if (!isMenu) return askMaterial(from, model, material, false, [](int) {});
@@ -82,7 +82,7 @@ int DrawBar::highFor(int height) {
     return height + between >= buttonCount * (high + between) ? high : lowHigh;
 }
 
-// As many columns as are needed, of one height.
+// Spreads the buttons evenly over as many columns as are needed.
 int DrawBar::perColumn(int height) {
     const int most = std::max(1, (height + between) / (highFor(height) + between));
     const int columns = (buttonCount + most - 1) / most;
@@ -96,7 +96,7 @@ int DrawBar::widthFor(int height) {
 
 void DrawBar::resized() {
     const int rows = perColumn(getHeight()), each = highFor(getHeight());
-    const int apart = rows < buttonCount ? 0 // columns of one line each
+    const int apart = rows < buttonCount ? 0 // several columns
                                          : std::min((getHeight() + between - rows * (each + between)) / 3, 8);
     for (int k = 0; k <= static_cast<int>(tools_.size()); ++k) {
         auto& button =
@@ -116,7 +116,7 @@ public:
         setTitle("Material " + getName());
         setWantsKeyboardFocus(true);
     }
-    /// `why`: it is not felt at usual impacts; empty: it is.
+    /// `why`: why the material is not felt at usual impacts; empty: it is felt.
     void setWhy(const std::string& why) {
         isFelt_ = why.empty();
         setTooltip(isFelt_ ? getName() + ": draw with it; a double click: its name and colour"
@@ -126,7 +126,7 @@ public:
     static constexpr int pictureWide = 32;
     int namedWide() const { return 38 + text::pixels(text::font(text::small), getName()); }
     std::function<void()> onEnter;
-    std::function<void(MaterialSwatch&, bool isMenu)> onEdit; ///< a double click, or for a menu a right one
+    std::function<void(MaterialSwatch&, bool isMenu)> onEdit; ///< double click; right click: isMenu
     void mouseDown(const juce::MouseEvent& e) override {
         e.mods.isPopupMenu() ? onEdit(*this, true) : juce::Button::mouseDown(e);
     }
@@ -140,7 +140,7 @@ public:
                         .brighter(isOver ? 0.1f : 0.0f)
                         .withAlpha(0.95f));
         g.fillRoundedRectangle(getLocalBounds().toFloat(), 6.0f);
-        g.setColour(shade(*this, Shade::accent)); // as a tab's: a frame is the keyboard's
+        g.setColour(shade(*this, Shade::accent)); // as in tabs; frames mark the focus
         if (getToggleState()) g.fillRect(getLocalBounds().reduced(6, 0).removeFromBottom(2));
         g.setColour(colour_);
         const float middle = 0.5f * static_cast<float>(getHeight());
@@ -183,7 +183,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page
     setTitle("Chosen bodies");
     const auto change = [this](const juce::String& name, auto what, bool continuesEdit = false) {
         pane_.changeChosen(name, what, continuesEdit);
-        show(); // a refused change leaves no mark
+        show(); // restores the display if it was refused
     };
     const auto slides = [change](juce::Slider& slider, const char* name, auto set) {
         onSlide(slider, [change, name, set, &slider](bool continuesEdit) {
@@ -261,7 +261,7 @@ BodyPanel::BodyPanel(MixerModel& model, DrawPane& pane, const MaterialPage& page
     belt_.setRange(-20.0, 20.0, 0.1);
     belt_.setTextValueSuffix(" m/s");
     slides(belt_, "Belt speed", [](BodyDescription& b, double speed) {
-        constexpr double still = 0.01; // it stays a belt
+        constexpr double still = 0.01; // with 0 it would be a wall
         b.velocityMetresPerSecond.x = speed == 0.0 ? still : speed;
     });
     new_.onClick = [this] { askMaterial(*this, model_, pane_.material(), true, give_); };
@@ -317,7 +317,7 @@ void BodyPanel::show() {
     densityName_.setText(marked("density", differ([&](const auto& b) { return densityOf(scene, b); })),
                          juce::dontSendNotification);
     bounceName_.setText(marked("bounce", differ(bounceOf)), juce::dontSendNotification);
-    // ticked if all that can be are: else a press makes them
+    // ticked if all bodies that can have the property have it; otherwise a press gives it to them
     const auto tick = [&](juce::ToggleButton& button, const char* words, auto can, auto is) {
         int all = 0, are = 0;
         for (const std::string& name : chosen)
@@ -383,14 +383,14 @@ int BodyPanel::flow(int width, bool places) {
         x += between;
     };
     put({{&name_, nameWide}, {material_.get(), width > 2 * wide ? materialWide : widerMaterial}});
-    // of several bodies they may differ, and say so: then each has its line
+    // marked buttons (the bodies differ) are wider, and each has a line of its own
     const auto marks = [](const juce::Button& button) { return button.getButtonText().containsChar(0x2260); };
     if (marks(moves_) || marks(source_)) {
         put({{&moves_, movesWide + markWide}});
         put({{&source_, sourceWide + markWide}});
     } else
         put({{&moves_, movesWide}, {&source_, sourceWide}});
-    for (auto& swatch : materials_) // the one that makes another is not alone
+    for (auto& swatch : materials_) // the button for a new material stays beside the last swatch
         if (swatch != materials_.back())
             put({{swatch.get(), swatchWide}}), x -= between;
         else
@@ -474,7 +474,7 @@ void MaterialPalette::show() {
     placeName();
 }
 
-// What is chosen, and the tool, move nothing: a hand is on its way there.
+// Selection and tool move no swatch, because the pointer may be on its way to one.
 void MaterialPalette::resized() {
     constexpr int between = 4, countWide = 106, wayWide = 150, newWide = 28, editWide = 52;
     auto area = getLocalBounds();
@@ -493,7 +493,7 @@ void MaterialPalette::resized() {
     placeName();
 }
 
-// Over the room of the rain's lists while those are not there; a name is there whole, or not.
+// The name uses the space of the rain's lists while they are hidden; it is shown only if it fits whole.
 void MaterialPalette::placeName() {
     constexpr int edges = 12;
     name_.setBounds(getLocalBounds()

@@ -15,12 +15,12 @@ public:
     ~DrawBar() override;
     void show(); ///< updates after changes of the pane
     void resized() override;
-    /// One column, or as many as the height needs.
+    /// Width in pixels at that height: one column of buttons, or as many as are needed.
     static int widthFor(int height);
 
 private:
     static constexpr int wide = 34, high = 30, lowHigh = 26, between = 3;
-    /// Buttons are a little lower before there is another column.
+    /// Height of a button in pixels: buttons get lower before there is a second column.
     static int highFor(int height);
     static int perColumn(int height);
     class ToolButton;
@@ -35,8 +35,8 @@ class MaterialSwatch;
 /// Opens the page of a material's figures, with a choice of a recording or not.
 using MaterialPage = std::function<void(int material, bool isRecording)>;
 
-/// Name and colour of each material: a click selects it for drawing, and hovering plays it once; and one that
-/// makes another. With the rain, also its number of balls. Message thread.
+/// A button per material: a click selects it for drawing, hovering plays it once. Another button creates a
+/// material. With the rain tool, also lists for the number of balls and the pattern. Message thread.
 class MaterialPalette final : public juce::Component {
 public:
     MaterialPalette(MixerModel& model, DrawPane& pane, const MaterialPage& page);
@@ -48,7 +48,7 @@ private:
     MixerModel& model_;
     DrawPane& pane_;
     std::vector<Material> shown_;
-    std::set<std::tuple<bool, int, bool>> surfaces_; // those that the remarks are about
+    std::set<std::tuple<bool, int, bool>> surfaces_; // surfaces for which the tooltips were made
     std::vector<std::unique_ptr<MaterialSwatch>> swatches_;
     const MaterialPage& page_;
     const std::function<void(int)> use_{[this](int material) {
@@ -58,7 +58,7 @@ private:
     SignButton new_{Sign::plus, "New material"};
     juce::TextButton edit_;
     void placeName();
-    Caption name_; // of the chosen one, where there is no room for all of them
+    Caption name_; // selected material, if the swatches have no room for names
     juce::ComboBox count_, way_;
 };
 
@@ -74,11 +74,11 @@ public:
     }
     void resized() override { flow(getWidth(), true); }
     int heightFor(int width) { return flow(width, false); }
-    static constexpr int wide = 216; ///< beside the field; else as wide as that, in few lines
+    static constexpr int wide = 216; ///< beside the field, px; above it, as wide as the field
 
 private:
     static constexpr int edge = 4, rowHigh = 26;
-    int flow(int width, bool places); ///< in lines, as words are; its height
+    int flow(int width, bool places); ///< sets bounds if `places`; returns the height
     void edit(const char* name, const Result<std::vector<Action>>& actions, bool continuesEdit) {
         model_.reportFault(actions ? model_.world().edit(name, actions.value, continuesEdit) : actions.error);
     }
@@ -90,7 +90,7 @@ private:
     std::string drivenJoint_, springJoint_; // of the single selected body; empty: none
     const MaterialPage& page_;
     const std::function<void(int)> give_{
-        [this](int material) { pane_.giveMaterial(material), show(); }}; ///< to what is chosen
+        [this](int material) { pane_.giveMaterial(material), show(); }}; ///< to the selected bodies
     SignButton new_{Sign::plus, "New material for what is chosen"};
     std::unique_ptr<juce::TextButton> material_;
     Caption name_{{}, Shade::text};

@@ -9,7 +9,7 @@ namespace physvib {
 
 namespace {
 
-/// Of what moves, that of the last body that does and sounds; else the first one that sounds.
+/// Of a new body: if it moves, that of the last moving body that vibrates; else the first that vibrates.
 int usualMaterial(const Scene& scene, DrawTool tool) {
     const auto sounds = [](const Material& m) { return m.frequencyHz > 0.0; };
     if (tool != DrawTool::wall && tool != DrawTool::line && tool != DrawTool::conveyor)
@@ -55,7 +55,7 @@ void DrawPane::cancelStroke() {
     repaint();
 }
 
-// What has just been drawn keeps its material: the next one gets this.
+// A body that has just been drawn keeps its material; the next one gets this.
 void DrawPane::setMaterial(int material) {
     material_ = material;
     isPicked_ = true;
@@ -66,7 +66,7 @@ void DrawPane::setMaterial(int material) {
 void DrawPane::giveMaterial(int material) {
     changeChosen("Material", [material](const Scene& scene, BodyDescription& body) {
         const auto vibrates = [&scene](int m) { return nth(scene.materials, m).frequencyHz > 0.0; };
-        if (!vibrates(material)) // of which nothing is felt
+        if (!vibrates(material)) // which is not felt
             setSource(scene, body, false);
         else if (!vibrates(body.fixtures[0].material) && startsAsSource(body)) // as if it were drawn now
             setSource(scene, body, true);
@@ -138,7 +138,7 @@ std::optional<BodyPlace> DrawPane::placeNow(const std::string& name) const {
     return pose ? std::optional{BodyPlace{{pose->xMetres, pose->yMetres}, pose->angleRadians}} : std::nullopt;
 }
 
-/// Shapes are drawn in the field, at its edge too.
+/// Whether the current shape cannot start there: beyond the edge of the field.
 bool DrawPane::isBeside(juce::Point<float> place) const {
     constexpr float edge = 10.0f;
     return (isStroke(tool_) || tool_ == DrawTool::polygon) &&
@@ -149,7 +149,7 @@ bool DrawPane::isBeside(juce::Point<float> place) const {
 
 void DrawPane::mouseDown(const juce::MouseEvent& e) {
     if (e.mods.isPopupMenu()) return onMenu ? onMenu(e.position) : void();
-    model_.messages().withdraw(triedLabel); // one tries again, or something else
+    model_.messages().withdraw(triedLabel); // the last attempt is over
     to_ = at(e);
     if (tool_ != DrawTool::choose) choose({});
     if (isBeside(e.position)) return;
@@ -229,13 +229,13 @@ Result<BodyDescription> DrawPane::drawnNow() const {
     }
 }
 
-// A click gives a rain of the usual size, all of it within the field; of a drag no side is shorter than half
-// of that, or the balls of a flat one would be dust.
+// A click gives a rain of the default size within the field. After a drag no side is shorter than half of
+// that, because the balls of a flat rain would be too small.
 Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
     const auto& scene = model_.world().scene();
     const Vector from = stroke_.empty() ? to_ : stroke_[0];
     const bool isClick = between(from, to_) * static_cast<double>(view_.pixelsPerMetre()) < 4.0;
-    const auto side = [isClick](double a, double b, double field) { // its middle, and half of it
+    const auto side = [isClick](double a, double b, double field) { // centre and half length
         const double half = 0.5 * std::abs(b - a), least = (isClick ? 0.15 : 0.075) * field;
         return half < least ? std::pair{std::clamp(0.5 * (a + b), least, field - least), least}
                             : std::pair{0.5 * (a + b), half};
@@ -245,9 +245,9 @@ Result<std::vector<BodyDescription>> DrawPane::rainNow() const {
     return drawnRain({x - wide, y - high}, {x + wide, y + high}, rainCount_);
 }
 
-// A wall whose surface runs the way of the drag; a click gives one to the right.
+// A wall whose surface moves in the direction of the drag; after a click, to the right.
 Result<BodyDescription> DrawPane::beltNow() const {
-    constexpr double thickShare = 0.05, speedShare = 0.8; // of the field's height, in a second
+    constexpr double thickShare = 0.05, speedShare = 0.8; // of the field's height; speed per second
     const double height = model_.world().scene().fieldHeightMetres, thick = thickShare * height;
     const Vector from = stroke_.empty() ? to_ : stroke_[0];
     const bool isClick = between(from, to_) < thick;
@@ -268,7 +268,7 @@ void DrawPane::addStroke() {
     add(std::vector{std::move(body.value)});
 }
 
-/// Names, material and whether they are felt; false: there is nothing to draw with.
+/// Sets name, material and haptic source of new bodies; false: the scene has no materials.
 bool DrawPane::prepare(std::vector<BodyDescription>& bodies) {
     if (drawing().drawn().materials.empty())
         return model_.report("The scene has no materials to draw with"), false;
@@ -283,7 +283,7 @@ bool DrawPane::prepare(std::vector<BodyDescription>& bodies) {
     return true;
 }
 
-// One edit.
+// Adds the bodies as one edit, or reports their error.
 void DrawPane::add(Result<std::vector<BodyDescription>> bodies) {
     if (!bodies) return model_.report(utf8(bodies.error));
     if (!prepare(bodies.value)) return;
@@ -291,8 +291,8 @@ void DrawPane::add(Result<std::vector<BodyDescription>> bodies) {
     const std::vector<std::string> names{bodies.value.front().name};
     for (auto& body : bodies.value) actions.push_back(SpawnAction{std::move(body), {}});
     edit("Draw a " + juce::String{wordsOf(tool_).name}.toLowerCase(), std::move(actions));
-    if (tool_ != DrawTool::conveyor) hintOnBody(model_, names.front()); // what it carries is felt
-    if (drawing().find(names.front()) != nullptr) choose(names); // the panel is there while one draws on
+    if (tool_ != DrawTool::conveyor) hintOnBody(model_, names.front()); // a belt is not felt
+    if (drawing().find(names.front()) != nullptr) choose(names);        // keeps the body panel visible
 }
 
 void DrawPane::closePolygon() {
@@ -320,7 +320,7 @@ void DrawPane::addInTheMiddle() {
     if (tool_ == DrawTool::polygon)
         stroke_ = {{to_.x - size, to_.y - size}, {to_.x + size, to_.y - size}, {to_.x, to_.y + size}};
     choose({});
-    addStroke(); // what it draws is chosen
+    addStroke(); // selects the new body
     stroke_.clear();
     if (chosen_.empty()) return;
     const auto drawn = chosen_;
@@ -507,7 +507,7 @@ void DrawPane::pasteAt(Vector place) {
     paste(copied_, {place.x - from.x, place.y - from.y});
 }
 
-// What the script moves goes with that of the script: the world begins anew.
+// Bodies that the script still needs are erased with their script inputs; the world then restarts.
 void DrawPane::eraseAll(const std::vector<std::string>& names, bool continuesEdit) {
     auto actions = erased(drawing(), names);
     SceneDrawing trial = drawing();
@@ -594,7 +594,7 @@ void DrawPane::drawJoints(juce::Graphics& g) const {
     }
 }
 
-// Arrows along the side that carries.
+// Draws arrows along the moving side of each belt.
 void DrawPane::drawBelts(juce::Graphics& g) const {
     constexpr float apart = 26.0f;
     g.setColour(shade(*this, Shade::ground));

@@ -24,7 +24,7 @@ public:
     void use(DrawTool tool); ///< the hand tool acts in the view below
     DrawTool tool() const noexcept { return tool_; }
     void setMaterial(int material);  ///< for new bodies and, with the arrow, the selected ones
-    void giveMaterial(int material); ///< to the selected ones
+    void giveMaterial(int material); ///< of the selected bodies only
     int material() const noexcept { return material_; }
     void setSnapping(bool snaps);
     bool snaps() const noexcept { return snaps_; }
@@ -41,7 +41,7 @@ public:
     void setRainCount(int count);
     const RainPattern& rainPattern() const noexcept { return rain_.pattern(); }
     void setRainPattern(const RainPattern& pattern);
-    void spawnDueBodies() { rain_.spawnDueBodies(); } ///< of a rain; to be called often
+    void spawnDueBodies() { rain_.spawnDueBodies(); } ///< of a rain; call it at every refresh
 
     // Menu commands, at places in metres of the field.
     void addAt(DrawTool tool, Vector place); ///< a body of the usual size, or a joint
@@ -82,9 +82,9 @@ private:
     double grid() const { return snaps_ ? model_.world().scene().fieldHeightMetres / gridsPerField : 0.0; }
     bool isBeside(juce::Point<float> place) const;
     std::optional<Handles> handles() const;
-    BodyDescription sizedNow() const;
-    std::map<std::string, BodyPlace> movedNow() const;
-    Result<BodyDescription> drawnNow() const;
+    BodyDescription sizedNow() const;                  ///< the selected body as the drag sizes it
+    std::map<std::string, BodyPlace> movedNow() const; ///< selected bodies as the drag moves them
+    Result<BodyDescription> drawnNow() const;          ///< what the stroke would become
     Result<std::vector<BodyDescription>> rainNow() const;
     Result<BodyDescription> beltNow() const;
     void addStroke();
@@ -100,10 +100,10 @@ private:
     void closePolygon();
     void addInTheMiddle();
     bool handleToolKey(const juce::KeyPress& key);
-    std::string fieldBody(std::vector<Action>& actions, const Vector& place);
-    std::string jointAt(juce::Point<float> place) const;
-    Vector carried(const Vector& point, const std::string& body) const;
-    juce::Line<float> lineNow(const JointDescription& joint) const;
+    std::string fieldBody(std::vector<Action>& actions, const Vector& place); ///< for a joint to the field
+    std::string jointAt(juce::Point<float> place) const;                      ///< its name; empty: none
+    Vector carried(const Vector& point, const std::string& body) const; ///< at the current pose of the body
+    juce::Line<float> lineNow(const JointDescription& joint) const;     ///< in pixels
     void drawBelts(juce::Graphics& g) const;
     void drawJoints(juce::Graphics& g) const;
     void drawOutline(juce::Graphics& g, const BodyDescription& body, const BodyPlace& place,
@@ -115,8 +115,8 @@ private:
     WorldView& view_;
     DrawTool tool_ = DrawTool::hand;
     int material_ = 0;
-    bool isPicked_ = false;              // the material, by a person
-    std::shared_ptr<const Scene> scene_; // in which it was
+    bool isPicked_ = false;              // a person chose the material
+    std::shared_ptr<const Scene> scene_; // for which it was chosen
     int rainCount_ = 50;
     Rain rain_;
     bool snaps_ = false, isDrawing_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Icons of the tools, and rain by the time of the world.
+// Icons of the tools, and the timing of a rain.
 #include "Mixer/World/DrawTools.h"
 #include "Mixer/Widgets/Parts.h"
 #include "Pictures/ShapeOutline.h"
@@ -89,11 +89,11 @@ juce::Path signOf(DrawTool tool) {
 namespace {
 
 constexpr const char* rainStep = "Let it rain";
-constexpr double rise = 0.5;     // height of a fountain, of the field's
-constexpr double spread = 0.25;  // of its speed, to both sides
+constexpr double rise = 0.5;     // height of a fountain, share of the field's
+constexpr double spread = 0.25;  // maximum sideways speed, share of the upward speed
 constexpr int differentJets = 7; // balls of one jet would follow each other exactly
 
-/// All from the middle of where they would fall from, upwards.
+/// Starts all bodies at the middle of their places, with upward velocities.
 void makeFountain(std::vector<BodyDescription>& bodies, const Scene& scene) {
     Vector middle;
     for (const BodyDescription& body : bodies) {
@@ -121,7 +121,7 @@ void Rain::begin(std::vector<BodyDescription> bodies) {
     spawnDueBodies();
 }
 
-// By the time of the world: it waits in a pause, and ends when the scene starts anew or the rain is undone.
+// In simulated time: a rain waits in a pause, and ends when the scene restarts or the rain is undone.
 void Rain::spawnDueBodies() {
     if (falling_.empty()) return;
     const auto passed = model_.session().world().sceneNs() - fromNs_;

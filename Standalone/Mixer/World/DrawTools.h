@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The tools in the world: throwing bodies, selecting and drawing. Of each its key, its words and its icon;
-// and what the rain of one of them does, ball by ball.
+// The tools in the world, each with its key, name, help text and icon; and Rain, which adds the bodies of the
+// rain tool one by one.
 #pragma once
 #include "Mixer/Model/MixerModel.h"
 #include <juce_gui_basics/juce_gui_basics.h>
@@ -66,30 +66,30 @@ inline const DrawToolWords& wordsOf(DrawTool tool) { return nth(drawTools, tool)
 /// Icon around (0, 0), within 9 pixels in each direction.
 juce::Path signOf(DrawTool tool);
 
-/// How the bodies of a rain come: all at once, so many in a second of the world, or so many upwards from one
-/// place.
+/// How the bodies of a rain appear: all at once or at a rate in simulated time, where they were drawn or
+/// upwards from one place.
 struct RainPattern {
     int perSecond = 0; ///< 0: all at once
     bool isFountain = false;
     bool operator==(const RainPattern&) const = default;
 };
 
-/// Adds the bodies of one rain to the scene when the time of its world has come to them. All of them are one
-/// step of undoing. Message thread.
+/// Adds the bodies of one rain to the scene when they are due in simulated time. One undo removes all of
+/// them. Message thread.
 class Rain {
 public:
     explicit Rain(MixerModel& model)
         : model_{model} {}
     const RainPattern& pattern() const noexcept { return pattern_; }
     void setPattern(const RainPattern& pattern) { pattern_ = pattern; }
-    void begin(std::vector<BodyDescription> bodies); ///< with names and materials, the first to come first
-    void spawnDueBodies();                           ///< adds those that are due; to be called often
+    void begin(std::vector<BodyDescription> bodies); ///< named, in the order of appearance
+    void spawnDueBodies();                           ///< call it at every refresh
 
 private:
     MixerModel& model_;
     RainPattern pattern_;
-    std::vector<BodyDescription> falling_;  // those that are still to come, the next last
-    std::int64_t fromNs_ = 0, spawned_ = 0; // time of the scene, and how many have come since
+    std::vector<BodyDescription> falling_;  // not added yet; the next one is the last element
+    std::int64_t fromNs_ = 0, spawned_ = 0; // scene time of the start; bodies added since
 };
 
 } // namespace physvib

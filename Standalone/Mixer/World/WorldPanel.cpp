@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What hands do in the world becomes inputs of the session.
+// Layout, menus and mouse input of the panel, the text on the strongest hit, and the script strip.
 #include "Mixer/World/WorldPanel.h"
 #include "Core/NameNumbers.h"
 #include "Scene/SceneEdits.h"
@@ -8,11 +8,11 @@
 namespace physvib {
 namespace {
 
-constexpr double shownMs = 900.0; // a sentence stays at least so long, unless a stronger hit comes
-constexpr double handMs = 10.0;   // between inputs of a hand that holds; mice tell a thousand times a second
-constexpr double handSeconds = 0.02; // of each way: the next input comes before, and nothing stops between
-// pixels of the panel; else there is no room for what the tab says as well, and for a knob beside the master
-constexpr int lawNeeds = 700, masterNeeds = 260, knobNeeds = 820, foot = 42; // the row of words
+constexpr double shownMs = 900.0;    // minimum time that a hit is described, unless a stronger one comes
+constexpr double handMs = 10.0;      // between inputs while a body is held; mice report more often
+constexpr double handSeconds = 0.02; // of each grip; the next one comes before its end
+// widths of the panel in pixels at which law, master and drag knob have room; height of the bottom row
+constexpr int lawNeeds = 700, masterNeeds = 260, knobNeeds = 820, foot = 42;
 const juce::String dot = "  " + juce::String::charToString(0x00b7) + "  ";
 const juce::String kiloNewtonSeconds = juce::String::fromUTF8("kN\xc2\xb7s");
 
@@ -20,7 +20,7 @@ juce::String strengthWords(double g) {
     return g < 0.02 ? "hardly felt" : g < 0.1 ? "felt softly" : g < 0.4 ? "felt" : "felt strongly";
 }
 
-constexpr double stepSeconds = 0.01; // one step of the world; parts start and end at steps
+constexpr double stepSeconds = 0.01; // one step of the world; a trim starts and ends at steps
 
 } // namespace
 
@@ -145,7 +145,7 @@ void WorldPanel::mixChanged() {
 }
 
 void WorldPanel::showTools() {
-    if (isShow_ && pane_.tool() != DrawTool::hand) return pane_.use(DrawTool::hand); // which comes back here
+    if (isShow_ && pane_.tool() != DrawTool::hand) return pane_.use(DrawTool::hand); // calls this again
     bar_.show();
     palette_.show();
     palette_.setVisible(!isShow_ && pane_.tool() != DrawTool::hand);
@@ -154,8 +154,8 @@ void WorldPanel::showTools() {
     placeInspector();
 }
 
-/// In the field, where it covers no badge and nothing of what is chosen, or least of them; it stays where it
-/// is while that holds, and under a hand.
+/// Place in the field where the body panel covers least of badges and selection. It stays where it is if no
+/// other place is better, and while the pointer is over it.
 juce::Rectangle<int> WorldPanel::withinField(int wide, int high) const {
     const auto field = juce::Rectangle<float>{view_.placeOfShare({0.0, 1.0}), view_.placeOfShare({1.0, 0.0})}
                            .toNearestInt() +
@@ -193,7 +193,7 @@ void WorldPanel::placeInspector() {
     const auto edgeAt = [this](double metres) {
         return juce::roundToInt(view_.placeOfMetres({metres, 0.0}).x) + view_.getX();
     };
-    // a badge stands on the edge, a wall behind it
+    // badges lie on the edge of the field, walls outside it
     constexpr int apart = 20, least = 4, wide = BodyPanel::wide;
     const int right = edgeAt(model_.world().scene().fieldWidthMetres), left = edgeAt(0.0) - wide;
     const int high = body_.heightFor(wide);
@@ -204,7 +204,7 @@ void WorldPanel::placeInspector() {
         place.setX(std::max(left - apart, room.getX()));
     else {
         place = room.withHeight(body_.heightFor(room.getWidth()));
-        constexpr int badge = 15; // as far one stands above the field
+        constexpr int badge = 15; // height of a badge above the field
         const int top = juce::roundToInt(view_.placeOfShare({0.0, 1.0}).y) + view_.getY() - badge;
         if (place.getBottom() > top) place = withinField(wide, high);
     }
@@ -214,7 +214,7 @@ void WorldPanel::placeInspector() {
 juce::Rectangle<int> WorldPanel::bannerArea() const {
     auto row = getLocalBounds().reduced(8, 4);
     if (isShow_) return row.withTrimmedRight(silenceWidth).withHeight(28);
-    // beside the dials and A/B, where it has the room
+    // beside the knobs and A/B if there is room
     if (const auto beside = row.withRight(tilt_.getX() - 8); hasMaster_ || beside.getWidth() >= 280)
         row = beside;
     return row.removeFromBottom(foot - 9);
@@ -234,7 +234,7 @@ void WorldPanel::setPlay(bool isPlay, bool hasMaster) {
     resized();
 }
 
-/// Who begins to play takes over from the scene's script: the world begins anew without what that did.
+/// Sends input of a player. The first one replaces the scene's script: the world restarts without it.
 void WorldPanel::play(const std::vector<Action>& actions) {
     if (actions.empty()) return;
     if (const Scene& drawn = model_.world().drawing().drawn(); sceneForHands(drawn) != drawn) {
@@ -242,7 +242,7 @@ void WorldPanel::play(const std::vector<Action>& actions) {
         runsBefore_ = model_.saved().log.takes.size();
         model_.change("Play",
                       [&scene](Mix& mix) { mix.scene = std::make_shared<const Scene>(std::move(scene)); });
-        shown_ = model_.mix().scene; // the same player goes on
+        shown_ = model_.mix().scene; // keeps the player
         first_ = actions;
         return;
     }
@@ -254,7 +254,7 @@ void WorldPanel::play(const std::vector<Action>& actions) {
 }
 
 bool WorldPanel::keyPressed(const juce::KeyPress& key) {
-    if (!isShow_ && pane_.handleKey(key)) return true; // no tool where none is shown
+    if (!isShow_ && pane_.handleKey(key)) return true; // show mode has no tools
     if (!player_) return tilt_.handleKey(key);
     if (key == juce::KeyPress::leftKey) return play(player_->steer(-1)), true;
     if (key == juce::KeyPress::rightKey) return play(player_->steer(1)), true;
@@ -262,7 +262,7 @@ bool WorldPanel::keyPressed(const juce::KeyPress& key) {
     return false;
 }
 
-// What is moved goes for as long as a key is held; what is driven goes on.
+// A body that is moved stops when the key is released; one that is driven keeps going.
 bool WorldPanel::keyStateChanged(bool isDown) {
     using juce::KeyPress;
     if (isDown || !player_ || !player_->moves() || KeyPress::isKeyCurrentlyDown(KeyPress::leftKey) ||
@@ -271,7 +271,7 @@ bool WorldPanel::keyStateChanged(bool isDown) {
     return play(player_->steer(0)), false;
 }
 
-/// Place on the field of a pixel of the view, m.
+/// x on the field in metres, from an x in pixels of the view.
 double WorldPanel::metresAt(float x) const {
     const float left = view_.placeOfShare({0.0, 0.0}).x, right = view_.placeOfShare({1.0, 0.0}).x;
     return model_.world().scene().fieldWidthMetres * static_cast<double>((x - left) / (right - left));
@@ -291,7 +291,7 @@ void WorldPanel::cancelDrag() {
 
 void WorldPanel::lookAfterPlayer() {
     if (!player_) return;
-    // the world has begun anew
+    // the world has restarted
     if (!first_.empty() && model_.saved().log.takes.size() > runsBefore_) play(std::exchange(first_, {}));
     if (!player_->moves()) return;
     const float at = view_.placeOfBody(player_->body()).x;
@@ -310,7 +310,7 @@ juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     const auto& scene = model_.world().scene();
     const auto name = materialName(scene, hit), place = placeText(scene, hit);
     if (isClip(hit.sound)) return inLines({name, place});
-    const double g = strongestOf(model_, hit).levelG; // none: who would play it is muted, or has no output
+    const double g = strongestOf(model_, hit).levelG; // 0: its actuators are muted or have no output
     const bool isSeen = g < 0.005 || (isPlay_ && model_.isOnlySeen());
     auto felt = (isSeen    ? juce::String{"seen"}
                  : isPlay_ ? strengthWords(g)
@@ -325,7 +325,7 @@ juce::String WorldPanel::sentenceOn(const CollisionEvent& hit) const {
     return inLines({name, felt});
 }
 
-/// In one line or two, broken between the parts; empty if there is no room.
+/// The parts in one or two lines; empty if they do not fit.
 juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     const auto font = sentence_.getFont();
     const int room = sentence_.getWidth() - sentence_.getBorderSize().getLeftAndRight() - 10;
@@ -340,7 +340,7 @@ juce::String WorldPanel::inLines(const juce::StringArray& parts) const {
     return lines.size() <= 2 ? lines.joinIntoString("\n") : juce::String{};
 }
 
-/// Empty: something is felt, or may be at once.
+/// Why nothing is felt; empty if something is or may soon be felt.
 juce::String WorldPanel::whyNothing(double nowMs, bool isRunning) const {
     constexpr double quietMs = 4000.0;
     if (const auto why = whyMuted(); why.isNotEmpty()) return why;
@@ -389,7 +389,7 @@ void WorldPanel::refresh(const MixerMoment& moment) {
     placeInspector();
     static constexpr decltype(moment.meters.peaks) none{};
     const bool isFelt = whyMuted().isEmpty();
-    const auto& peaks = isFelt ? moment.meters.peaks : none; // a badge that glows says that it is felt
+    const auto& peaks = isFelt ? moment.meters.peaks : none; // badges glow only for what is felt
     view_.update({moment.poses, moment.sessionNs, moment.aheadNs, moment.hits,
                   std::span{peaks}.first(static_cast<std::size_t>(model_.mix().count())), isFelt});
 }
@@ -422,7 +422,7 @@ void WorldPanel::resized() {
     constexpr int silenceHigh = 40;               // the button lies over the corner of a show
     view_.setRoom(isShow_ ? juce::BorderSize<int>{silenceHigh, 0, 0, 0}
                           : juce::BorderSize<int>{hasMaster_ ? 51 : 20, tools - 12, foot - 14, 0});
-    pane_.setBounds(view_.getBounds().withTrimmedBottom(isShow_ ? 0 : foot - 4)); // not over the row of words
+    pane_.setBounds(view_.getBounds().withTrimmedBottom(isShow_ ? 0 : foot - 4)); // not over the bottom row
     top.removeFromLeft(8);
     script_.setBounds(top.withHeight(script_.getHeight()));
     palette_.setBounds(top.removeFromTop(26));

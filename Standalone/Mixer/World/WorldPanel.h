@@ -48,23 +48,23 @@ public:
     DrawPane& drawing() noexcept { return pane_; }
     MixerCompare& compare() noexcept { return ab_; }
     void tilt(double degrees) { tilt_.turnTo(degrees); } ///< turns gravity to that angle
-    /// The field and its actuators alone.
+    /// Shows only the field and its actuators, for an audience.
     void setShow(bool isShow);
-    /// Without an engineer's figures and knobs; with the master, where there are no strips.
+    /// Hides figures and knobs for engineers; shows the master if there are no channel strips.
     void setPlay(bool isPlay, bool hasMaster);
-    /// What a right click there offers. `place` in pixels of the view.
+    /// The context menu at `place`, in pixels of the view.
     juce::PopupMenu menuAt(juce::Point<float> place);
-    /// Where a message lies over this panel: on the row of words, but for the master.
+    /// Area of a message over this panel: its bottom row, without the master. In pixels of the panel.
     juce::Rectangle<int> bannerArea() const;
 
-    static constexpr int silenceWidth = 174; ///< of the button that silences, in the corner of a show
+    static constexpr int silenceWidth = 174; ///< of the silence button in show mode, px
 
     // Menu commands on an actuator that other panels carry out.
     std::function<void(int enchanter)> onOutput, onProfile;
     MaterialPage onMaterial; ///< and on a material
 
     bool isDragging() const { return view_.isDragging() || pane_.isDrawing(); }
-    void cancelDrag(); ///< all is as before it
+    void cancelDrag(); ///< restores the state before the drag
 
     bool keyPressed(const juce::KeyPress& key) override;
     bool keyStateChanged(bool isDown) override;
@@ -78,15 +78,15 @@ public:
     void resized() override;
 
 private:
-    void moveHand();
+    void moveHand(); ///< sends the grip of the hand, if it is time
     void addActuatorItems(juce::PopupMenu& menu, int enchanter);
     void addBodyItems(juce::PopupMenu& menu, const std::string& body, Vector place);
     void addEmptyItems(juce::PopupMenu& menu, FieldShare at, Vector place);
-    void placeInspector();
+    void placeInspector(); ///< lays the body panel beside, above or in the field
     juce::Rectangle<int> withinField(int wide, int high) const;
-    void showTools();
+    void showTools(); ///< updates all controls of drawing
     void play(const std::vector<Action>& actions);
-    void lookAfterPlayer();
+    void lookAfterPlayer(); ///< moves it towards the pointer, and keeps it in the field
     double metresAt(float x) const;
     juce::String sentenceOn(const CollisionEvent& hit) const;
     juce::String inLines(const juce::StringArray& parts) const;
@@ -117,8 +117,8 @@ private:
     bool isShow_ = false, isPlay_ = false, hasMaster_ = false;
     double hitAtMs_ = 0.0;
     CollisionEvent shownHit_;               // of amplitude 0: none yet
-    std::shared_ptr<const Scene> hitScene_; // in which it was
-    juce::String why_;                      // as shown
+    std::shared_ptr<const Scene> hitScene_; // scene of shownHit_
+    juce::String why_;                      // as displayed
     std::shared_ptr<const Scene> shown_;
     std::uint64_t shownEdits_ = 0;
 };
