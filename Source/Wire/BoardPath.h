@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Splits a moving tone into segments for a board of protocol 2. Each segment approximates the gains of the
-// computer's renderer by a straight line.
+// Splits a moving tone into segments for a board of protocol 2, or into short events for protocol 1. A
+// segment approximates the gains of the computer's renderer by a straight line.
 //
 // A segment is as long as its line stays within half a converter step of those gains: about a millisecond
 // near a corner of the layout, where a root is steepest, otherwise up to the maximum. Its phase continues

@@ -194,7 +194,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Reads them; past the end it gives zeros, and isComplete() is false.
+/// Reads numbers that Writer wrote. Past the end it returns zeros, and isComplete() is false.
 class Reader {
 public:
     explicit constexpr Reader(std::span<const std::uint8_t> in)

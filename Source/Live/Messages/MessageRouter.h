@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Common entry of all messages, whichever input they come from: checks them against the table, gives them a
-// time, and passes them to the session.
+// The table of messages, and the router that checks messages of all inputs against it, gives them a time and
+// passes them to the session; the rate limit of their error reports.
 #pragma once
 #include "Core/EnchanterLayout.h"
 #include "Core/Limits.h"

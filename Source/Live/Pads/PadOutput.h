@@ -66,7 +66,7 @@ private:
     std::unique_ptr<GamePad> pad_; // the thread's alone, as the next two lines
     PadCommand sent_, wanted_;
     std::int64_t sentNs_ = 0, looksNs_ = 0; // steady clock
-    std::int64_t holdsUntilNs_ = 0; // until then the strongest of several is felt; then what is wanted
+    std::int64_t holdsUntilNs_ = 0; // until then the strongest of several commands stays; then wanted_
 
     FollowedDevice device_; // its mutex guards the members below, used by the thread and M
     PadProfile profile_;

@@ -12,7 +12,7 @@
 
 namespace physvib {
 
-/// Those of `log`; or one line if a file is missing, has changed or has no hit, or there are too many. M.
+/// Loads the recordings of `log`. An error if a file is missing, has changed or has no hit, or too many. M.
 Result<LoadedRecordings> loadRecordings(const SessionLog& log);
 
 /// Paths of these files. Any thread.

@@ -64,14 +64,14 @@ struct RigSettings {
     Provenance provenance{};  ///< of the event list
 };
 
-/// What does not work, and its one-line error.
+/// A part of the rig that does not work, and its one-line error.
 struct RigTrouble {
     std::string source; ///< "device", "events", the name of a sink, "journal" or "recording"
     std::string words;
     bool operator==(const RigTrouble&) const = default;
 };
 
-/// One line on events that were dropped as no device ran (DevicePulse); empty: none were.
+/// One line on events that were dropped because no device ran (DevicePulse); empty if there were none.
 std::string droppedWords(std::uint64_t events);
 
 /// All methods M only, except session() and those methods of it that any thread may call.

@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-/// Address that a packet came from.
+/// Address of a packet's sender.
 struct UdpSender {
     alignas(8) std::array<std::byte, 128> address{}; ///< a sockaddr_storage
     std::size_t size = 0;
