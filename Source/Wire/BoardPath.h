@@ -23,7 +23,7 @@ namespace physvib {
 //
 // That renderer evaluates the panning law at the ends of each tile and interpolates linearly (Core/Voices.h).
 
-/// Of one event, in a session rendered at one rate. One thread.
+/// Gains of one event, in a session rendered at one rate. One thread.
 class PathGains {
 public:
     using Gains = std::array<double, limits::board::channels>;
@@ -164,7 +164,7 @@ public:
         isJoined_ = true;
     }
 
-    /// Skips the time of one segment, which is not played; the next starts anew, maybe on another clock.
+    /// Skips the time of one segment. The next one starts at its own time, maybe on another clock.
     void skip() noexcept {
         nextNs_ += mostFrames * (1'000'000'000LL / limits::board::sampleRateHz);
         hasBegun_ = true;

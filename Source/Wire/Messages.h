@@ -77,7 +77,7 @@ struct Strike {
     }
 };
 
-/// The same in 16 bytes instead of 24 on the line, for a loaded link: no duration, coarse amplitude and time.
+/// A Strike in 16 bytes instead of 24 on the line, for a loaded link: no duration, coarse amplitude and time.
 struct CompactStrike {
     static constexpr Type type = Type::compactStrike;
     std::uint8_t sequence = 0;

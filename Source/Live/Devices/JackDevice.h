@@ -169,7 +169,7 @@ public:
 
     /// Also follows the server's connections: if others have connected or disconnected outputs, the user is
     /// stopped and started anew with those that are connected now. JACK reports this on a thread of its own,
-    /// where the user must not be called, so whoever looks after the device asks.
+    /// where the user must not be called, so this is polled.
     bool isOpen() override;
 
     void start(DeviceUser& user) override;

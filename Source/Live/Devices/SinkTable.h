@@ -64,8 +64,8 @@ using Sinks = std::vector<std::unique_ptr<Sink>>;
 /// Named sinks at a time. A SinkSet has as many places again for recorder, meters and OSC.
 constexpr std::size_t mostNamedSinks = SinkSet::maxSinks / 2;
 
-/// Opens all of them for a session with that panner; or one line. Waits for each to become ready as long as
-/// `keepGoing` returns true; without `keepGoing` it does not wait. M.
+/// Opens all requested sinks for a session with that panner. Returns the first error. Waits for each as long
+/// as `keepGoing` returns true; without `keepGoing` it does not wait. M.
 std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
                       const std::function<bool()>& keepGoing, Sinks& opened);
 

@@ -282,7 +282,7 @@ private:
     std::uint64_t leftOut_ = 0;
 };
 
-/// Executes an input's control. Empty, or one line: withdrawn, but others still ask for silence. Any thread.
+/// Executes an input's control. Returns a line if it withdraws, but others still request silence. Any thread.
 std::string takeSilence(MuteRequests& silence, const SilenceControl& control, MuteRequester holder);
 
 } // namespace physvib

@@ -148,7 +148,7 @@ private:
     const std::string where_;
     const std::unique_ptr<HidFeed> feed_;
 
-    std::unique_ptr<HidDevice> pad_; // the thread's alone, as the next two lines
+    std::unique_ptr<HidDevice> pad_; // used by the thread alone, as the next two lines
     std::int64_t looksNs_ = 0;       // steady clock
     bool hasSent_ = false;           // since it was switched on
 

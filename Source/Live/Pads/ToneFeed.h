@@ -49,7 +49,7 @@ private:
     PhantomPanner grips_;
     EventQueue<CollisionEvent, 4096> events_; // in session time
     ControlQueue<256> controls_;
-    std::vector<PannerChange> layouts_; // grips, waiting for their time, as the next
+    std::vector<PannerChange> layouts_; // panners and stops that wait for their time
     std::vector<std::int64_t> stopsNs_;
     std::vector<Voice> voices_;
     std::int64_t dueNs_ = INT64_MIN / 2; // steady time of the next report

@@ -38,7 +38,7 @@ public:
         : folder_{std::move(folder)} {}
 
     /// Loads a recording or a haptic file (see readRecording), which must be in the folder or below after all
-    /// links are followed. Or one line.
+    /// links are followed. Returns the error in one line otherwise.
     Result<LoadedClip> operator()(const std::string& name) const;
 
 private:

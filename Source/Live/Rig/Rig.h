@@ -116,7 +116,7 @@ public:
     /// Errors of the device and events that it did not run for (from the last maintain()), the sinks, the
     /// journal and the recording.
     std::vector<RigTrouble> troubles() const;
-    /// The same in one line; empty: none.
+    /// All errors in one line; empty if there are none.
     std::string trouble() const;
     /// State of each sink.
     std::vector<SinkState> sinkStates() const;

@@ -79,7 +79,7 @@ private:
     int rateHz_ = 0; // of the session
     SessionClock clock_;
     PhantomPanner panner_;
-    std::vector<PannerChange> layouts_; // pending until their time, as the next
+    std::vector<PannerChange> layouts_; // panners and other controls that wait
     std::vector<RenderControl> others_;
     std::vector<BoardPath> paths_;  // moving and long tones, until their end is felt: another may follow
     std::vector<BoardSteps> steps_; // such tones as events: further ones, or for boards without segments

@@ -47,7 +47,7 @@ public:
     /// As HapticRenderer. R, wait-free.
     void discard(const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING;
 
-    /// The same frames as the actuators' renderer, after it. R, wait-free.
+    /// Renders the same frames as the actuators' renderer; call it after that one. R, wait-free.
     void render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
     /// Impacts, stops and field changes that did not fit the queues. Any thread.

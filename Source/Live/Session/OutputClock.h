@@ -114,7 +114,7 @@ public:
     /// Requests silence; returns the number of the request: 1 for the first of `holder`.
     std::uint64_t request(MuteRequester holder) noexcept { return of(holder).asked.fetch_add(1) + 1; }
 
-    /// The same for a request that has a number already; repeating it changes nothing.
+    /// Requests silence with a number that the input gave; repeating it changes nothing.
     void request(MuteRequester holder, std::uint64_t number) noexcept { raise(of(holder).asked, number); }
 
     /// How many times `holder` has requested silence.

@@ -271,7 +271,7 @@ bool CallbackInputs::silence(int frame) noexcept {
 }
 
 bool CallbackInputs::perform(RenderInput input, int frame) noexcept {
-    if (!hasWorld_) return true; // nobody would ever take it from the queue
+    if (!hasWorld_) return true; // no world would take it from the queue
     input.timeNs = time_.nextNs(frame);
     return inputs_.push(input);
 }

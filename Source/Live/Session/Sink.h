@@ -104,7 +104,7 @@ public:
     void played(const PlayedEvent& event, int sampleRateHz) {
         each([&](Sink& sink) { sink.played(event, sampleRateHz); });
     }
-    /// Of all sinks that have something to display.
+    /// States of all sinks that have something to display.
     std::vector<SinkState> states() const {
         std::vector<SinkState> all;
         each([&](const Sink& sink) {

@@ -73,7 +73,7 @@ public:
     /// Session time of an event that the render call creates at a frame of the next block. R.
     std::int64_t nextInputNs(std::int64_t frame) const noexcept { return sessionNs(nextInputFrame(frame)); }
 
-    /// The same in the renderer's frames, and the frame that leaves the renderer then. R.
+    /// That time in the renderer's frames; and the renderer's frame that leaves it at `frame`. R.
     std::int64_t nextInputFrame(std::int64_t frame) const noexcept {
         return isBornDirect_ ? nextRenderedFrame(frame) : nextFrame(frame);
     }
