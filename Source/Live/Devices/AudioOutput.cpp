@@ -175,8 +175,8 @@ bool AudioOutput::hasGone(Clock::time_point now) {
     return watch_.hasGone(now, load_.read().blocks, wasConnected_ && !isConnected);
 }
 
-// Adapts the session to the device. A block longer than all before, or a new sink, needs a longer output
-// latency; after a change of the sample rate session time is set again.
+// Restarts the session at another sample rate, or with a longer output latency for longer blocks or a new
+// sink. Empty, or one line on the changed rate.
 std::string AudioOutput::follow() {
     const int rate = keeper_.device()->sampleRateHz(), before = sampleRateHz();
     const bool isChanged = rate != before && rate > 0;

@@ -111,12 +111,12 @@ private:
     void stopped() override { running_ = false; }
 
     std::string remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening);
-    std::string listeningFault() const;
-    DeviceRequest wish() const;
+    std::string listeningFault() const; // empty, or why listening outputs cannot play
+    DeviceRequest wish() const;         // the device to open, by settings and output map
     std::string openDevice(DeviceSession::Limit limit);
-    void fadeOut();
+    void fadeOut(); // returns when the outputs are silent, or after a time limit
     bool hasGone(Clock::time_point now);
-    std::string follow();
+    std::string follow(); // restarts for another sample rate, longer blocks or a new sink
     void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
     void renderPart(Session& session, float* const* out, int outputs, int first, int frames) noexcept;
 

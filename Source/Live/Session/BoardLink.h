@@ -150,12 +150,12 @@ private:
     void handle(std::span<const std::uint8_t> payload);
     void meet(const wire::HelloReply& board);
     void take(const wire::Pong& pong);
-    void greet();
-    void keepInTouch();
-    void obey();
+    void greet();       // repeats Hello until the board answers
+    void keepInTouch(); // sends pings, requests for telemetry and gains when they are due
+    void obey();        // executes pending orders
     void sendStrikes();
     void publish();
-    double transitMs() const;
+    double transitMs() const; // longest time from sending until the board can play
     bool isLineFree(std::int64_t now) const;
     template <class Message>
     void send(const Message& message);
