@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Splits a moving tone into segments for a board of protocol 2. Each segment approximates the gains of the
-// computer's renderer by a straight line.
+// Splits a moving tone into segments for a board of protocol 2, or into short events for protocol 1. A
+// segment approximates the gains of the computer's renderer by a straight line.
 //
 // A segment is as long as its line stays within half a converter step of those gains: about a millisecond
 // near a corner of the layout, where a root is steepest, otherwise up to the maximum. Its phase continues
@@ -23,7 +23,7 @@ namespace physvib {
 //
 // That renderer evaluates the panning law at the ends of each tile and interpolates linearly (Core/Voices.h).
 
-/// Of one event, in a session rendered at one rate. One thread.
+/// Gains of one event, in a session rendered at one rate. One thread.
 class PathGains {
 public:
     using Gains = std::array<double, limits::board::channels>;
@@ -164,7 +164,7 @@ public:
         isJoined_ = true;
     }
 
-    /// Skips the time of one segment, which is not played; the next starts anew, maybe on another clock.
+    /// Skips the time of one segment. The next one starts at its own time, maybe on another clock.
     void skip() noexcept {
         nextNs_ += mostFrames * (1'000'000'000LL / limits::board::sampleRateHz);
         hasBegun_ = true;

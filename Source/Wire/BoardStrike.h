@@ -114,8 +114,8 @@ public:
         --size_;
     }
 
-    /// Where an event would be late because of those before it, drops the weakest of them all and counts it.
-    /// An event that would be late even as the first stays, because dropping others would not help.
+    /// If an event would be late because of those before it, drops the weakest of all of these and counts it.
+    /// An event that would be late even as the first one stays, because dropping others would not help.
     void keepTo(const LineRoom& line) noexcept {
         for (int i = 1; i < size_;) {
             if (isInTime(line, i, i + 1) || !isInTime(line, i, 1)) {

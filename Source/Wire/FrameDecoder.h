@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The receiving end of the board link: decodes its bytes to checked payloads, resynchronises at the next zero
-// after an error, and detects events that were sent twice.
+// Receiving end of the board link: a decoder of bytes to checked payloads, which resynchronises at the next
+// zero after an error, and a detector of events that were sent twice.
 #pragma once
 #include "Core/Limits.h"
 #include "Wire/Messages.h"

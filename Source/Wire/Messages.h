@@ -77,7 +77,7 @@ struct Strike {
     }
 };
 
-/// The same in 16 bytes instead of 24 on the line, for a loaded link: no duration, coarse amplitude and time.
+/// A Strike in 16 bytes instead of 24 on the line, for a loaded link: no duration, coarse amplitude and time.
 struct CompactStrike {
     static constexpr Type type = Type::compactStrike;
     std::uint8_t sequence = 0;
@@ -194,7 +194,7 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Reads them; past the end it gives zeros, and isComplete() is false.
+/// Reads numbers that Writer wrote. Past the end it returns zeros, and isComplete() is false.
 class Reader {
 public:
     explicit constexpr Reader(std::span<const std::uint8_t> in)

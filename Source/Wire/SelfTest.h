@@ -12,7 +12,7 @@ namespace physvib::wire {
 /// Called around each block of the renderer.
 class SelfTestRun {
 public:
-    /// The gains of who played before are set aside until the end.
+    /// Starts the test, and stores the renderer's gains until its end.
     void begin(BoardRenderer& renderer) noexcept {
         if (!isRunning()) gains_ = renderer.exchangeGains({1.0f, 1.0f, 1.0f, 1.0f});
         step_ = 1;

@@ -16,7 +16,7 @@ constexpr unsigned int usualRatesHz[] = {44100, 48000, 88200, 96000, 176400, 192
 constexpr unsigned int mostChannels = 256; // mixing devices claim 10,000
 constexpr int longestWaitMs = 100;
 
-// ALSA tells the size of its structures at run time only.
+// Memory for a structure of ALSA, whose size is known at run time only.
 struct HardwareParameters {
     explicit HardwareParameters(const AlsaLibrary& alsa)
         : bytes(alsa.pcm_hw_params_sizeof()) {}
@@ -26,7 +26,7 @@ struct HardwareParameters {
 
 void ignoreAlsaMessage(const char*, int, const char*, int, const char*, ...) {}
 
-// What is loaded with the program comes first: a test replaces the clock of a device that way.
+// Prefers functions that were loaded with the program, so that a test can replace the clock of a device.
 void* alsaFunction(void* library, const char* name) {
     void* const loadedBefore = functionIn(nullptr, name);
     return loadedBefore != nullptr ? loadedBefore : functionIn(library, name);
@@ -42,12 +42,12 @@ std::optional<AlsaLibrary> loadAlsa() {
     PHYSVIB_ALSA_FUNCTIONS(PHYSVIB_ALSA_FIND)
 #undef PHYSVIB_ALSA_FIND
     if (!isWhole) return {};
-    // A machine without a sound card would get sixty lines on stderr for one look at its devices.
+    // Without a sound card, ALSA would print sixty lines to stderr for each scan.
     alsa.lib_error_set_handler(ignoreAlsaMessage);
     return alsa;
 }
 
-// Variants of devices that are listed anyway, and what plays nowhere.
+// True for variants of devices that have an entry of their own, and for names that play nowhere.
 bool isLeftOut(const std::string& id) {
     return id.empty() || id == "null" || id.starts_with("default:") || id.starts_with("sysdefault:") ||
            id.starts_with("plughw:");
@@ -155,7 +155,7 @@ void AlsaPcm::begin() {
     if (direction_ == SND_PCM_STREAM_CAPTURE) alsa_.pcm_start(pcm_);
 }
 
-// A device that plays on through gaps does not report them: more room than its buffer has means one.
+// A device that plays on through gaps does not report them. More room than its buffer's size shows a gap.
 void AlsaPcm::countGap() noexcept {
     const auto room = alsa_.pcm_avail_update(pcm_);
     const bool isLate = room > 0 && static_cast<snd_pcm_uframes_t>(room) > bufferFrames_;
@@ -260,7 +260,7 @@ void AlsaDevice::stop() {
     if (DeviceUser* const user = slot_.end()) user->stopped();
 }
 
-// All of one block. False: the device is being closed, or has gone.
+// Transfers one whole block. False: the device is being closed, or has gone.
 bool AlsaDevice::moveAll(Direction& direction) noexcept {
     const auto step = static_cast<std::size_t>(direction.pcm.channels());
     for (int moved = 0, done = 0; moved < blockFrames_; moved += done) {
@@ -334,7 +334,7 @@ void AlsaDriver::addHint(const void* hint) {
     if (end == "jack") return;
     std::string name = inOneLine(hintText(hint, "DESC"));
     if (name.empty()) name = id;
-    // ALSA says of dmix and dsnoop that they have both directions, but they have one each.
+    // ALSA reports both directions for dmix and dsnoop, but each has only one.
     if (direction != "Output" && !id.starts_with("dmix")) inputs_.push_back({id, name, end});
     if (direction != "Input" && !id.starts_with("dsnoop")) outputs_.push_back({id, name, end});
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A device of ALSA: a thread that asks for blocks as fast as the device takes them.
+// Audio devices of ALSA, and their list. A thread of each open device asks for blocks at its pace.
 #pragma once
 #include "Live/Devices/AudioDevice.h"
 #include <alsa/asoundlib.h>
@@ -42,10 +42,10 @@ const AlsaLibrary* alsaLibrary();
 
 // One direction of an ALSA device: its parameters, and interleaved samples to or from it.
 
-/// What a device offers in one direction; no channels if it cannot be asked.
+/// What a device offers in one direction; no channels if it cannot be queried.
 struct AlsaRange {
     int minChannels = 0, maxChannels = 0;
-    bool isMissing = false; ///< cannot be opened, and not for want of rights or as another program has it
+    bool isMissing = false; ///< cannot be opened for another reason than rights or use by another program
     int rateHz = 0;         ///< the first usual rate from 44.1 kHz on that it has; 0: none
 };
 
@@ -62,8 +62,8 @@ public:
     /// Opens the device for a moment. M; may wait for the driver.
     AlsaRange range() const;
 
-    /// Near `rateHz` and `blockFrames`, which become what the device chose; floats, which ALSA converts where
-    /// the device has other samples. Returns empty or one line. M; may wait for the driver.
+    /// Opens near `rateHz` and `blockFrames`, which become what the device chose. Samples are floats, which
+    /// ALSA converts if necessary. Returns empty or the error in one line. M; may wait for the driver.
     std::string open(int channels, int& rateHz, int& blockFrames);
     void close();
     bool isOpen() const noexcept { return pcm_ != nullptr; }
@@ -96,7 +96,7 @@ private:
     bool isLate_ = false; // since the last block that came in time
 };
 
-/// One name of ALSA's for output and input. It is opened by that name, so a device that was plugged in while
+/// A device by ALSA's names for output and input. It is opened by name, so one that was plugged in while
 /// others play is found.
 class AlsaDevice final : public AudioDevice {
 public:

@@ -16,7 +16,7 @@ namespace {
 
 std::atomic<int> left{0};
 
-// JACK's library waits for ever after a program was killed while it opened a client.
+// Time limit of a scan: JACK's library may block for ever if a program was killed while it opened a client.
 constexpr std::chrono::seconds answering{2};
 
 std::vector<AudioDeviceName> devicesOf(AudioDriver& driver) {
@@ -136,7 +136,7 @@ void DeviceThread::begin(std::function<void()> call) {
     call_ = std::make_shared<Call>();
     thread_ = std::thread{[state = call_, call = std::move(call)]() mutable {
         call();
-        call = nullptr; // and everything it holds
+        call = nullptr; // destroys what it captured
         const std::lock_guard lock{state->mutex};
         state->isOver = true;
         if (state->isLeft) --left;
@@ -187,7 +187,7 @@ std::vector<AudioDeviceName> listAudioDevices(const AudioDrivers& drivers) {
 
 FoundDevice findAudioDevice(const AudioDrivers& drivers, const std::string& asked, bool withInputs) {
     auto all = drivers();
-    // what older versions saved: a way to these very outputs that is not taken any more (AlsaDriver)
+    // older versions saved another name for the same outputs, which is not listed any more (AlsaDriver)
     const std::string wanted = asked == "ALSA:JACK Audio Connection Kit" ? "JACK:system" : asked;
     const auto prefix = [](const auto& driver) { return driver->name() + ":"; };
     const auto isNamed = [&](const auto& driver) { return wanted.starts_with(prefix(driver)); };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Audio devices and their drivers, as this project uses them: the interface between the output and a library
-// of devices; threads for calls that may hang; the null device; the Pico among the devices.
+// Interfaces of audio devices and their drivers; lists of devices and the choice among them; a thread for
+// driver calls that may hang; the null device; recognition of the Raspberry Pi Pico by its name.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -19,16 +19,16 @@ using ChannelSet = std::set<int>;
 
 class AudioDevice;
 
-/// What a device calls.
+/// The callbacks of a device; implemented by whoever plays on it.
 class DeviceUser {
 public:
     virtual ~DeviceUser() = default;
-    /// Before the first block, while start() runs.
+    /// Called by start() before the first block.
     virtual void aboutToStart(AudioDevice& device) = 0;
-    /// Fills all `outputs` channels of `out`: the active outputs, in order. R, wait-free.
+    /// Fills all `outputs` channels of `out`, which are the active outputs in order. R, wait-free.
     virtual void block(const float* const* in, int inputs, float* const* out, int outputs,
                        int frames) noexcept = 0;
-    /// By AudioDevice::stop(), or because the device has failed. Any thread.
+    /// Called by AudioDevice::stop(), or when the device has failed. Any thread.
     virtual void stopped() = 0;
 };
 
@@ -38,11 +38,11 @@ public:
     virtual ~AudioDevice() = default;
 
     virtual std::string name() const = 0;
-    virtual int outputs() = 0; ///< that it has
-    virtual int inputs() = 0;  ///< that it has
+    virtual int outputs() = 0; ///< number of outputs of the device
+    virtual int inputs() = 0;  ///< number of inputs of the device
     virtual int defaultBlockFrames() = 0;
 
-    /// Opens those of the channels that it has. 0: the device's default. Empty, or one line why.
+    /// Opens those of the channels that exist. Rate or block 0: the default. Empty, or the error.
     virtual std::string open(const ChannelSet& inputs, const ChannelSet& outputs, int sampleRateHz,
                              int blockFrames) = 0;
     virtual void close() = 0;
@@ -53,13 +53,13 @@ public:
     /// No block runs afterwards.
     virtual void stop() = 0;
 
-    /// Of the open device, at present.
+    /// This and the next four return the present values of the open device.
     virtual int sampleRateHz() = 0;
     virtual int blockFrames() = 0;                ///< usual length of a block
     virtual ChannelSet activeOutputs() const = 0; ///< those that block() gets; empty: none is connected
     virtual int deviceLatencyFrames() = 0;
     virtual int xruns() const = 0; ///< -1: the device does not count. Any thread
-    /// False: it discards what it gets, so nothing is lost while it pauses.
+    /// False for a device that discards its samples, so that nothing is lost while it pauses.
     virtual bool isReal() const { return true; }
 };
 
@@ -77,7 +77,7 @@ public:
 /// Creates the drivers to search; they have not been scanned yet.
 using AudioDrivers = std::function<std::vector<std::unique_ptr<AudioDriver>>()>;
 
-// Hands blocks of a device to whoever has started it, and ends that without a lock in the render thread.
+// Forwards the blocks of a device to its user, and can be detached without a lock in the render thread.
 
 class UserSlot {
 public:
@@ -177,7 +177,7 @@ public:
     DeviceThread(const DeviceThread&) = delete;
     DeviceThread& operator=(const DeviceThread&) = delete;
 
-    /// Starts `call`, which must own or share everything it uses; the call before has finished.
+    /// Starts `call`, which must own or share everything it uses. The previous call must have finished.
     void begin(std::function<void()> call);
 
     using Clock = std::chrono::steady_clock;

@@ -12,11 +12,11 @@ constexpr double fadeInSeconds = 0.005;
 constexpr DeviceSession::Limit opening = 10s;     // time limit for a device that a user opens
 constexpr DeviceSession::Limit reopening = 500ms; // a driver that takes longer is tried again a second later
 constexpr DeviceSession::Limit ending = 400ms;    // a JACK client aborted here keeps its server busy
-constexpr auto firstBlock = 1s;                   // a device just chosen has asked for none yet
+constexpr auto firstBlock = 1s;                   // time for a newly opened device to ask for a block
 constexpr std::chrono::milliseconds leastFade = 100ms, mostFade = 400ms; // limits of three blocks' time
 constexpr int mostOutputs = 65'536;                                      // of a device
 
-/// What the driver reports, and what it cannot know.
+/// The latency that the driver reports, plus what it cannot know.
 int latencyFrames(AudioDevice& device) {
     const double own = isPico(device.name()) ? picoLatencySeconds : 0.0;
     return device.deviceLatencyFrames() + static_cast<int>(std::lround(own * device.sampleRateHz()));
@@ -175,8 +175,8 @@ bool AudioOutput::hasGone(Clock::time_point now) {
     return watch_.hasGone(now, load_.read().blocks, wasConnected_ && !isConnected);
 }
 
-// A block longer than all before needs a longer output latency, and so does a sink that has come; a new
-// sample rate, the session's time anew.
+// Restarts the session at another sample rate, or with a longer output latency for longer blocks or a new
+// sink. Empty, or one line on the changed rate.
 std::string AudioOutput::follow() {
     const int rate = keeper_.device()->sampleRateHz(), before = sampleRateHz();
     const bool isChanged = rate != before && rate > 0;
@@ -221,7 +221,7 @@ void AudioOutput::renderBlock(float* const* out, int outputs, int frames) noexce
     Session& session = played_.now();
     const std::int64_t startNs = steadyNs(start);
     const OutputMoment felt = played_.nextFelt(startNs);
-    if (session.pulse().isStill(startNs)) { // the first block after a pause
+    if (session.pulse().isStill(startNs)) { // this is the first block after a pause
         receipts_.begin();
         session.comeBack(startNs);
         master_.prepare(sampleRateHz(), fadeInSeconds, 0.0f);

@@ -71,14 +71,14 @@ public:
     /// all is well, else one line that says what is missing or changed. M, about once a second.
     std::string maintain(Clock::time_point now = Clock::now());
 
-    /// The wanted device, as type:name once it was found; empty: none. M.
+    /// The requested device, as type:name once it was found; empty if none was requested. M.
     const std::string& device() const noexcept { return settings_.device; }
 
     /// Whether a session borrowed through playInstead() is playing. Any thread.
     bool isLent() const noexcept { return played_.isLent(); }
 
-    /// What left for an actuator, from 0, from `fromNs` on and before `untilNs` of the session that plays now
-    /// (or of the `session` that was playedSession()): times as of Session::submit(). Any thread, wait-free.
+    /// What was sent to an actuator (from 0) between `fromNs` and `untilNs`, in the time of the session that
+    /// plays now, or of the `session` that playedSession() returned. Any thread, wait-free.
     Receipt left(std::int64_t fromNs, std::int64_t untilNs, int actuator) const noexcept {
         return left(fromNs, untilNs, actuator, playedSession());
     }
@@ -86,12 +86,12 @@ public:
                  std::uint32_t session) const noexcept {
         return receipts_.left(fromNs, untilNs, actuator, session);
     }
-    std::uint32_t playedSession() const noexcept { return played_.number(); } ///< 0: its own
+    std::uint32_t playedSession() const noexcept { return played_.number(); } ///< 0: its own session
     /// Makes left() exact for this span in the future; otherwise it is extended to whole bins of 10 ms. M.
     void expect(std::int64_t fromNs, std::int64_t untilNs) noexcept { receipts_.expect(fromNs, untilNs); }
     Receipts::Total leftInAll(int actuator) const noexcept { return receipts_.all(actuator); } ///< any thread
-    /// Whether a device is open and asks for blocks, with no pause longer than three of them and 100 ms. Of a
-    /// device that discards what it gets, pauses do not count. Any thread.
+    /// Whether a device is open and asks for blocks without a pause of more than three blocks and 100 ms.
+    /// Pauses of a device that discards its samples do not count. Any thread.
     bool isPlaying() const noexcept { return running_ && !played_.now().pulse().isStill(steadyNs()); }
 
     /// Exposure of the session's channels as played: after ceilings, master level, silence and guard. M.
@@ -111,12 +111,12 @@ private:
     void stopped() override { running_ = false; }
 
     std::string remap(const std::vector<int>& channelMap, int enchanters, const ListeningSettings& listening);
-    std::string listeningFault() const;
-    DeviceRequest wish() const;
+    std::string listeningFault() const; // empty, or why listening outputs cannot play
+    DeviceRequest wish() const;         // the device to open, by settings and output map
     std::string openDevice(DeviceSession::Limit limit);
-    void fadeOut();
+    void fadeOut(); // returns when the outputs are silent, or after a time limit
     bool hasGone(Clock::time_point now);
-    std::string follow();
+    std::string follow(); // restarts for another sample rate, longer blocks or a new sink
     void renderBlock(float* const* out, int outputs, int frames) noexcept PHYSVIB_NONBLOCKING;
     void renderPart(Session& session, float* const* out, int outputs, int first, int frames) noexcept;
 

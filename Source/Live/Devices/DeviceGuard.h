@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// OutputGuard at the device output, for every session that plays there, with its state readable by other
-// threads. What an output has had stays with that output: whichever actuator plays there, whatever the
-// device's period and rate become, and when it is opened again: a program may open a device anew for each
-// hit.
+// OutputGuard at the device output, for every session that plays there, and a memory of its state per output.
+// The state of an output is kept when another actuator plays there, when the block size or sample rate of the
+// device changes and when the device is opened again, because a program may open a device for each hit.
 #pragma once
 #include "Core/Actuators/OutputGuard.h"
 #include "Live/Devices/AudioDevice.h"
@@ -17,7 +16,7 @@
 
 namespace physvib {
 
-/// What one output has had, and when that was.
+/// The guard's state of one output, and the time at which it was stored.
 struct KeptGuardSums {
     struct Output {
         std::size_t device; ///< hash of its name
@@ -29,15 +28,15 @@ struct KeptGuardSums {
     std::chrono::steady_clock::time_point since{};
 };
 
-/// What outputs of devices still hold of what this process has sent to them, while nobody plays there. Two
-/// who play on one output at the same time have a guard each. M.
+/// Guard states of all outputs on which nothing plays at present, for this process. Two sessions that play on
+/// one output at the same time have a guard each. M.
 class GuardMemory {
 public:
     using Clock = std::chrono::steady_clock;
     using Kept = KeptGuardSums;
     static inline Clock::time_point (*now)() = Clock::now; ///< tests set it
 
-    /// Of an output, from 0. It replaces what it went on from, kept `since`; of two, what is more of each.
+    /// Stores an output's state, replacing the one of time `since`; combines it with any other.
     static void keep(const std::string& device, int output, GuardSums sums,
                      Clock::time_point since = {}) noexcept {
         const std::lock_guard lock{mutex_};
@@ -49,7 +48,7 @@ public:
             at = std::ranges::min_element(kept_, {}, &Kept::since); // empty, or the oldest
         *at = {key, sums, now()};
     }
-    /// What is left by now; it stays until it has decayed, for others who open that output.
+    /// The stored state of an output, decayed to the present. It remains stored for later users.
     static Kept at(const std::string& device, int output) noexcept {
         const std::lock_guard lock{mutex_};
         const Kept* const found = find({std::hash<std::string>{}(device), output});
@@ -66,7 +65,7 @@ private:
         return {std::max(a.high, b.high), std::min(a.low, b.low), more.slow, more.speed, more.load,
                 std::min(a.rest, b.rest)};
     }
-    // As after silence for that long.
+    // The stored state after silence from then until now.
     static GuardSums aged(const Kept& kept) noexcept {
         constexpr int tilesPerSecond = 3000, forgotten = 8 * tilesPerSecond;
         const double seconds = std::chrono::duration<double>(now() - kept.since).count();
@@ -91,7 +90,7 @@ public:
     DeviceGuard(const DeviceGuard&) = delete;
     DeviceGuard& operator=(const DeviceGuard&) = delete;
 
-    /// Blocks of that device with these outputs follow. M, while the device is stopped.
+    /// Prepares for blocks of that device with these outputs. M, while the device is stopped.
     void begin(const std::string& device, const ChannelSet& outputs, int sampleRateHz) {
         giveBack();
         device_ = device;
@@ -108,7 +107,7 @@ public:
         guard_.prepare(sampleRateHz, static_cast<int>(count), GuardPlace::last);
         if (count > 0) guard_.recall(sums.data());
     }
-    /// Its outputs have had what they had. M, when the render thread has left.
+    /// Stores the state of all outputs in GuardMemory. M, when the render thread has left.
     void giveBack() noexcept {
         for (std::size_t c = 0; c < guard_.channels(); ++c)
             if (const auto k = static_cast<std::size_t>(channelAt_[c]); k < outputs_.size())
@@ -117,7 +116,7 @@ public:
         outputs_.clear();
     }
 
-    /// Actuator j plays on that channel of the callback. R.
+    /// Sets that actuator j plays on that channel of the callback. R.
     void follow(int j, int channel) noexcept {
         std::size_t& at = at_[static_cast<std::size_t>(j)];
         const std::size_t count = guard_.channels();
@@ -131,7 +130,7 @@ public:
         channelAt_[c] = channel;
         at = c;
     }
-    /// As OutputGuard, per actuator that has followed. R, wait-free.
+    /// Applies OutputGuard to actuator j's samples io[j]; null: it does not play. R, wait-free.
     void process(float* const* io, int frames) noexcept {
         std::array<float*, width> out{};
         for (std::size_t j = 0; j < width; ++j)

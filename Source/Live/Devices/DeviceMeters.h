@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an output measures of its device: load, blocks that stay away, levels.
+// Measurements of an output (load, missing blocks, levels), and queues for its input and its signals.
 #pragma once
 #include "Core/EventQueue.h"
 #include "Core/Limits.h"
@@ -26,7 +26,7 @@ public:
     };
 
     using Clock = std::chrono::steady_clock;
-    /// A block of `frames` that started at `start` has been rendered. R, wait-free.
+    /// Measures a block of `frames`, whose rendering began at `start` and has just ended. R, wait-free.
     void take(Clock::time_point start, int frames, int sampleRateHz) noexcept {
         const std::chrono::duration<double> taken = Clock::now() - start;
         measured_.last = static_cast<float>(taken.count() * sampleRateHz / frames);
@@ -46,7 +46,7 @@ private:
 // Detects that a device has stopped asking for blocks, because some drivers do not report that a device has
 // gone.
 
-/// M.
+/// All methods: M.
 class DeviceWatch {
 public:
     using Clock = std::chrono::steady_clock;
@@ -66,7 +66,7 @@ public:
         return now - movedAt_ > patience;
     }
 
-    /// Counts a loss, and watches the device that runs now.
+    /// Counts a loss of the device, and restarts the watch for the device that runs now.
     void lose(Clock::time_point now) noexcept {
         movedAt_ = lookedAt_ = now;
         ++losses_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds, opens, calls and closes one audio device. A driver may hang while it does so, so these calls run on
-// a thread of their own and the caller waits only for a time that it sets.
+// Finds, opens, calls and closes one audio device. A driver may hang in these calls, so they run on a thread
+// of their own and the caller waits for a limited time only.
 #pragma once
 #include "Live/Devices/AudioDevice.h"
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Plays on the ports of another JACK client.
+// Opens clients of JACK, plays on the ports of another client, and lists the clients with audio ports.
 #include "Live/Devices/JackDevice.h"
 #include "Live/Session/System.h"
 #include <cstdint>
@@ -43,7 +43,7 @@ std::size_t JackDevice::connect(const Direction& direction, const ChannelSet& wa
     return connected;
 }
 
-// JACK makes connections at once, but lists them only from the server's next block on.
+// Waits for connections: JACK makes them at once, but lists them only from the server's next block on.
 void JackDevice::awaitConnections(std::size_t inputs, std::size_t outputs) const {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds{500};
     while ((connectedPorts(stream_->in).size() < inputs || connectedPorts(stream_->out).size() < outputs) &&
@@ -111,7 +111,7 @@ ChannelSet JackDevice::activeOutputs() const {
     return channels;
 }
 
-// Read at the ports that ours are connected to: JACK tells ours only after its next change of the graph.
+// Reads the latency at the ports that ours are connected to: JACK updates ours only when its graph changes.
 int JackDevice::deviceLatencyFrames() {
     jack_nframes_t longest = 0;
     const auto held = stream_->client.holdSoon();
@@ -145,7 +145,7 @@ std::optional<JackLibrary> loadJack() {
     PHYSVIB_JACK_FUNCTIONS(PHYSVIB_JACK_FIND)
 #undef PHYSVIB_JACK_FIND
     if (!isWhole) return {};
-    // Without a running server, JACK prints five lines to stderr for each query. The caller says it in one.
+    // Without a server, JACK prints five lines to stderr for each query; the caller reports it in one.
     jack.set_error_function([](const char*) {});
     jack.set_info_function([](const char*) {});
     return jack;

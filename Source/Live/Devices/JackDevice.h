@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Another client of the JACK server, such as "system", as a device: this program's ports are connected to
-// its.
+// Each client of the JACK server, such as "system", as an audio device: our ports are connected to its ports.
 #pragma once
 #include "Live/Devices/AudioDevice.h"
 #include <algorithm>
@@ -62,7 +61,7 @@ public:
     /// (JackPortIsOutput), in the server's order. Held only.
     std::vector<std::string> ports(JackPortFlags direction) const;
 
-    /// Of those, the ones of one client.
+    /// The ports() of one client.
     std::vector<std::string> portsOf(const std::string& owner, JackPortFlags direction) const;
 
     /// Keeps what JACK may still call for a client without its server, until JACK has freed it.
@@ -105,7 +104,7 @@ public:
     UserSlot slot;
     std::atomic<int> xruns{0};
     int rateHz = 0;      ///< of the server, which keeps it
-    int blockFrames = 0; ///< of the server, when it was last asked
+    int blockFrames = 0; ///< of the server, when it was last queried
     JackClient client;   ///< closed first: until then JACK may call
 
 private:
@@ -170,7 +169,7 @@ public:
 
     /// Also follows the server's connections: if others have connected or disconnected outputs, the user is
     /// stopped and started anew with those that are connected now. JACK reports this on a thread of its own,
-    /// where the user must not be called, so whoever looks after the device asks.
+    /// where the user must not be called, so this is polled.
     bool isOpen() override;
 
     void start(DeviceUser& user) override;

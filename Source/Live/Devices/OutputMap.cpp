@@ -25,7 +25,7 @@ std::string heardFault(const std::vector<int>& felt, const HeardOutputs& heard) 
     return {};
 }
 
-// A mark is a pulse at full scale, for a measuring device that detects its edge.
+// Marks are pulses at full scale for a measuring device, so they may share no output.
 std::string marksFault(const std::vector<int>& felt, const HeardOutputs& heard) {
     const auto& marks = heard[static_cast<std::size_t>(Heard::marks)];
     const auto has = [](const std::vector<int>& outputs, int output) {

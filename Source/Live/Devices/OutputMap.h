@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Assigns device outputs to actuators and to listeners; the other settings of an output, and its state.
+// Assignment of device outputs to actuators and listeners; settings and status of an AudioOutput.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
 #include "Core/Limits.h"
@@ -39,10 +39,10 @@ public:
     std::string want(int enchanters, const std::vector<int>& wanted, int felt = 0,
                      const HeardOutputs& heard = {});
 
-    /// Which of the `offered` outputs are wanted.
+    /// Those of the `offered` outputs of a device that the request uses.
     ChannelSet outputs(int offered) const;
 
-    /// The highest output with a listener; -1: none.
+    /// Index of the highest listening output, from 0; -1: none.
     int highestHeard() const noexcept;
 
     /// Applies the request. A callback gets the `active` outputs only, packed together.

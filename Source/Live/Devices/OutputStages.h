@@ -31,10 +31,10 @@ public:
     /// Any thread.
     Session& now() const noexcept { return *now_.load(); }
     bool isLent() const noexcept { return &now() != &own_; }
-    /// Of the session that plays: 0, the own one; else how many have been borrowed so far. Any thread.
+    /// Identifies the session that plays: 0 is the own one, n the n-th borrowed one. Any thread.
     std::uint32_t number() const noexcept { return isLent() ? lends_.load() : 0; }
 
-    /// 0: no device has run. M and R, as the next two.
+    /// 0 until a device has run. M and R, as the next two.
     int sampleRateHz() const noexcept { return rate_; }
     int blockFrames() const noexcept { return block_; }
     /// Buffers of blockFrames() frames for each output of the own session.
@@ -59,7 +59,7 @@ public:
         for (auto& channel : samples_) at_.push_back(channel.data());
     }
 
-    /// No device is open. M, while R does not run.
+    /// Call when no device is open any more. M, while R does not run.
     void end() noexcept {
         pauseNs_ = 0;
         if (rate_ != 0) now().pulse().end();

@@ -45,7 +45,7 @@ void Receipts::expect(std::int64_t fromNs, std::int64_t untilNs) noexcept {
     untilNs_.store(std::clamp<std::int64_t>(untilNs, 0, limits::maxTimeNs), std::memory_order_relaxed);
 }
 
-// The open bin ends where the grid does, or what is expected begins or ends.
+// Sets the end of the open bin: the next multiple of 10 ms, or an expected time before it.
 void Receipts::setEdge() noexcept {
     const std::int64_t bin = std::max(1, open_.rate / binsPerSecond), at = open_.end(), over = at % bin;
     if (isExpectedAnew() || open_.rate != edgeRate_) {
@@ -81,7 +81,7 @@ void Receipts::take(std::uint32_t session, std::int64_t place, int sampleRateHz,
     }
 }
 
-// The open bin becomes readable, and the next one begins at its end.
+// Publishes the open bin to readers, and begins the next one at its end.
 void Receipts::publish() noexcept {
     if (open_.frames == 0) return;
     const std::int64_t now = written_.load(std::memory_order_relaxed);
@@ -136,7 +136,7 @@ bool Receipts::read(std::int64_t number, int actuator, Measured& sum) const noex
     return written_.load(std::memory_order_acquire) < number + mostBins;
 }
 
-// From the newest bin back to the one in which the span begins.
+// Sums up bins from the newest one back to the one in which the span begins.
 Receipt Receipts::left(std::int64_t fromNs, std::int64_t untilNs, int actuator,
                        std::uint32_t session) const noexcept {
     Receipt all;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Receipts: what went into the device's buffer for each actuator, after map, level, guard and clip, in the
-// session time at which it is felt. What is reported as played or felt is read from them.
+// Receipts: levels of what was written to the device's buffer for each actuator, after map, level, guard and
+// clip, by the session time at which it is felt. Reports of what was played or felt are read from them.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/Modes/TileKernels.h"
@@ -12,7 +12,7 @@
 
 namespace physvib {
 
-/// What left for an actuator within a span of session time; 1 = full scale of the output.
+/// What was sent to an actuator within a span of session time; 1 = full scale of the output.
 struct Receipt {
     std::int64_t frames = 0;             ///< that went to the actuator's output; 0 if it has none
     double peak = 0.0, meanSquare = 0.0; ///< of these frames
@@ -20,12 +20,12 @@ struct Receipt {
                             ///< the actuator had an output
     bool isOver = false;    ///< false: the device has not asked for the end of the span yet
     bool isKept = true;     ///< false: the span is too old, and parts of it are unknown
-    std::int64_t endNs = 0; ///< of the last frame that left: where a span that goes on from it begins
+    std::int64_t endNs = 0; ///< end of the last frame that left: start of a span that continues this one
     std::uint32_t opening = 0; ///< number of the last opening in the span; 0: no frame of it left
 };
 
-/// A ring of bins of 10 ms, the newest minute, for one writer and any number of readers. Its memory is taken
-/// when it is made (0.35 MB for four actuators, 3.3 MB for 64).
+/// A ring of 10 ms bins that covers the newest minute, for one writer and any number of readers. The
+/// constructor allocates its memory (0.35 MB for four actuators, 3.3 MB for 64).
 class Receipts {
 public:
     static constexpr int binsPerSecond = 100;
@@ -37,8 +37,8 @@ public:
     /// (R), or message thread (M) while R does not run.
     void begin() noexcept PHYSVIB_NONBLOCKING { ++opening_; }
 
-    /// Adds frames that leave: `outputs[j]` are the samples of actuator j, null: it has no output. `place` is
-    /// the first frame's in the session that plays, as it is felt; `session`: see left(). R, wait-free.
+    /// Adds frames that are sent: `outputs[j]` are the samples of actuator j, null if it has no output.
+    /// `place` is the session frame that is felt with the first of them; `session`: see left(). R, wait-free.
     void take(std::uint32_t session, std::int64_t place, int sampleRateHz, const float* const* outputs,
               int frames) noexcept PHYSVIB_NONBLOCKING;
 
@@ -51,7 +51,7 @@ public:
     Receipt left(std::int64_t fromNs, std::int64_t untilNs, int actuator,
                  std::uint32_t session = 0) const noexcept;
 
-    /// All that has left so far. Any thread, wait-free.
+    /// Totals since the construction. Any thread, wait-free.
     struct Total {
         double seconds = 0.0; ///< at the actuator's output
         double peak = 0.0;
@@ -59,7 +59,7 @@ public:
     Total all(int actuator) const noexcept;
 
 private:
-    /// Where a bin lies: frames of a session at a rate, in an opening.
+    /// Position of a bin: frames of a session at a sample rate, in one opening of the device.
     struct Place {
         std::int64_t start = 0;
         int frames = 0, rate = 0;
@@ -106,8 +106,8 @@ private:
     // R
     std::uint32_t opening_ = 0;
     Place open_;                                    // the bin that grows
-    std::int64_t edge_ = 0;                         // where it ends
-    std::int64_t edgeFromNs_ = 0, edgeUntilNs_ = 0; // that edge_ regards, and their frames
+    std::int64_t edge_ = 0;                         // frame at which it ends
+    std::int64_t edgeFromNs_ = 0, edgeUntilNs_ = 0; // expected times that edge_ respects
     int edgeRate_ = 0;
     std::array<std::int64_t, 2> expected_{};
     std::array<MeasuredLanes, static_cast<std::size_t>(limits::maxEnchanters)> growing_{};

@@ -56,7 +56,7 @@ std::unique_ptr<Sink> plain(const std::string& where, const PhantomPanner& panne
     return std::make_unique<Output>(where, panner);
 }
 
-/// A controller: of two motors or coils, found by itself.
+/// The entry of a controller with two motors or coils, which is found without a name.
 constexpr SinkKind pad(std::string_view name, std::string_view title, std::string_view about,
                        std::string_view setting, decltype(SinkKind::places) places,
                        decltype(SinkKind::make) make, bool takesReports = true) {

@@ -29,7 +29,7 @@ struct SinkKind {
     int actuators;            ///< number that a unit has
     std::string_view tooMany; ///< why more actuators are not supported; empty: any number is panned onto
                               ///< those of the unit
-    bool isMeant; ///< a connected unit is meant for this use, so the first-start dialog offers it first
+    bool isMeant; ///< connected units are made for vibration, so the first-start dialog offers them first
     std::vector<SinkPlace> (*places)(); ///< M; queries the system, which takes a while
     std::unique_ptr<Sink> (*make)(const std::string& where, const PhantomPanner& panner);
     bool takesReports = false; ///< a controller that is sent raw reports, beside its ordinary motors
@@ -61,11 +61,11 @@ std::string channelFault(const std::vector<SinkName>& sinks, int channels);
 
 using Sinks = std::vector<std::unique_ptr<Sink>>;
 
-/// At the same time. A SinkSet has as many again for sinks that programs attach (recorder, meters, OSC).
+/// Named sinks at a time. A SinkSet has as many places again for recorder, meters and OSC.
 constexpr std::size_t mostNamedSinks = SinkSet::maxSinks / 2;
 
-/// Opens all of them for a session with that panner; or one line. Waits for each to become ready as long as
-/// `keepGoing` returns true; without `keepGoing` it does not wait. M.
+/// Opens all requested sinks for a session with that panner. Returns the first error. Waits for each as long
+/// as `keepGoing` returns true; without `keepGoing` it does not wait. M.
 std::string openSinks(const std::vector<SinkName>& wanted, const PhantomPanner& panner,
                       const std::function<bool()>& keepGoing, Sinks& opened);
 

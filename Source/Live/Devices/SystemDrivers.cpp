@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The drivers whose headers were there when this was compiled, and whose libraries this machine has.
+// The audio drivers that this build supports and whose libraries this machine has.
 #include "Live/Devices/AudioDevice.h"
 #if defined(PHYSVIB_HAS_ALSA)
 #include "Live/Devices/AlsaDevice.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Parses one line of JSON that acts on a session: an input, a control or a message.
+// Messages and answers as names with values, and the parser of a line of JSON: input, control or message.
 #pragma once
 #include "Core/RenderControl.h"
 #include "Io/Result.h"

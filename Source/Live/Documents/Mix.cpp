@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Interpolates, adds and simplifies gain lanes.
+// Gain lanes (interpolation, sum, simplification), groups of strips, and the user's limits of levels.
 #include "Live/Documents/Mix.h"
 #include "Io/Text/NumberText.h"
 #include "Live/Documents/DocumentJson.h"
@@ -42,7 +42,7 @@ GainLane withinTolerance(const GainLane& lane, double toleranceDb) {
     return kept;
 }
 
-/// Its group, or one that changes nothing.
+/// The strip's group, or one without effect.
 const StripGroup& groupOf(const Mix& mix, const Strip& strip) {
     static const StripGroup none{};
     return strip.group < 0 ? none : mix.groups[static_cast<std::size_t>(strip.group)];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The mixer state: the scene, the layout of actuators, and one strip per actuator.
+// The mixer state: scene, layout, channel strips with groups and gain lanes; effective gains; user's limits.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/RenderControl.h"
@@ -79,7 +79,7 @@ constexpr int mostStripOutputs = 1024;
 constexpr std::size_t mostGroups = 16;
 inline constexpr auto stripRangeDb = kinds::within(leastStripDb, mostStripDb); // leastStripDb is silence
 
-/// The fields that plug-in strips have too. They have no groups and lanes.
+/// The fields that the plug-in's strips, which have no groups and lanes, have too.
 void visitStrip(auto& v) {
     v.field("gain_db", &Strip::gainDb, stripRangeDb);
     v.field("mute", &Strip::isMuted, kinds::truth);
@@ -131,7 +131,7 @@ inline void giveOutput(std::span<Strip> strips, std::size_t strip, int output) n
     strips[strip].output = output;
 }
 
-/// Takes the output from each strip that shares it with an earlier one. Returns these strips. Any thread.
+/// Removes the output of each strip that shares it with an earlier strip. Returns their indices. Any thread.
 inline std::vector<std::size_t> settleOutputs(std::span<Strip> strips) {
     std::vector<std::size_t> without;
     for (std::size_t j = 1; j < strips.size(); ++j) {
@@ -270,7 +270,7 @@ inline bool isSame(const EnchanterLayout& a, const EnchanterLayout& b) noexcept 
            std::equal(a.places.begin(), a.places.begin() + a.count, b.places.begin(), equal);
 }
 
-/// True if both play the same, and say so in the same words. Any thread.
+/// True if both play the same and have the same names and labels. Any thread.
 inline bool isSame(const Mix& a, const Mix& b) {
     return (a.scene == b.scene || *a.scene == *b.scene) && a.seed == b.seed &&
            a.layout.name == b.layout.name && isSame(a.layout.geometry, b.layout.geometry) &&

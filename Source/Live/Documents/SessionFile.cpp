@@ -13,12 +13,12 @@ namespace physvib {
 namespace detail {
 namespace {
 
-// Times of a list never go back.
+// Throws unless the times of a list are in order.
 void expectNotBefore(std::int64_t last, std::int64_t time, const JsonField& item) {
     if (time < last) item["time_s"].fail("expected a time that is not before that of the item above");
 }
 
-/// With those that its script spawns.
+/// Number of bodies of a scene, including those that its script spawns.
 std::size_t bodiesOf(const Scene& scene) {
     std::size_t count = scene.bodies.size();
     for (const ScriptInput& input : scene.script)
@@ -27,7 +27,7 @@ std::size_t bodiesOf(const Scene& scene) {
     return count;
 }
 
-/// Calls read(item) for each of a list that may be left out.
+/// Calls read(item) for each item of an optional list.
 void readEach(const JsonField& json, std::string_view name, auto read) {
     if (!json.has(name)) return;
     const JsonField list = json[name];
@@ -227,7 +227,7 @@ std::string sessionJson(const SavedSession& session, const std::filesystem::path
     return jsonLines(root);
 }
 
-// Slow motion delays each step too, but by less. A world that waits for its computer goes on at once.
+// Slow motion delays each step too, but by less. A stall for lack of speed ends at once.
 bool endsPaused(const SavedSession& session) {
     constexpr std::int64_t leastNs = 100'000'000;
     const SceneRun& last = session.log.takes.back();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Session file: a live session as JSON, with scenes, seeds, inputs and controls with their times. Rendering
-// it again reproduces the played output.
+// Session file: a live session as JSON (scenes, seeds, timed inputs and controls) whose render reproduces
+// what was played; and its journal, the form in which it grows during the session.
 #pragma once
 #include "Core/EventShaping.h"
 #include "Core/HapticRenderer.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Everything that was done in a session: what it takes to render it again.
+// Log of a session: scene runs, inputs, controls, recordings and events, enough to render it again.
 #pragma once
 #include "Core/NameNumbers.h"
 #include "Core/RenderControl.h"
@@ -69,7 +69,7 @@ struct PannerChange {
     PhantomPanner panner;
 };
 
-/// Any other control; apart, since a panner is a hundred times larger.
+/// Any other control. It has a type of its own because a panner is a hundred times larger.
 struct ChannelChange {
     std::int64_t timeNs = 0;
     RenderControl::Kind kind = RenderControl::Kind::stopAll;
@@ -77,7 +77,7 @@ struct ChannelChange {
     float value = 0.0f;
 };
 
-/// Other recordings in place of modes; none: modes.
+/// Recordings that events play instead of modes from that time on; an empty list: modes.
 struct RecordingsChange {
     std::int64_t timeNs = 0;
     std::vector<RecordingFile> files;

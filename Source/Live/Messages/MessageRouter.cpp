@@ -163,8 +163,8 @@ void MessageRouter::strike(std::vector<CollisionEvent> strikes, std::int64_t sta
     if (auto taken = session_.submit({Strikes{strikes, true}, 0}); !taken) throw MessageError{taken.error};
 }
 
-// Keeps the clip in the session before its events, so that they find its samples. Reading takes long; it does
-// not block other inputs.
+// Adds the clip to the session before its events, so that they find its samples. Reading a file takes long,
+// but does not block other inputs.
 std::vector<CollisionEvent> MessageRouter::clip(const MessageValues& values, const ClipSource& clips,
                                                 const PhantomPanner& panner, std::string& note) {
     if (!clips) values.fail("file", "expected no clips here: no folder was given to read them from");

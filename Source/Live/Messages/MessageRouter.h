@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Common entry of all messages, whichever input they come from: checks them against the table, gives them a
-// time, and passes them to the session.
+// The table of messages, and the router that checks messages of all inputs against it, gives them a time and
+// passes them to the session; the rate limit of their error reports.
 #pragma once
 #include "Core/EnchanterLayout.h"
 #include "Core/Limits.h"
@@ -282,7 +282,7 @@ private:
     std::uint64_t leftOut_ = 0;
 };
 
-/// Executes an input's control. Empty, or one line: withdrawn, but others still ask for silence. Any thread.
+/// Executes an input's control. Returns a line if it withdraws, but others still request silence. Any thread.
 std::string takeSilence(MuteRequests& silence, const SilenceControl& control, MuteRequester holder);
 
 } // namespace physvib

@@ -92,7 +92,7 @@ double distance(const EnchanterPlace& a, const EnchanterPlace& b) {
                            b.zMetres - a.zMetres);
 }
 
-/// Constant speed; of consecutive equal places only the first is used.
+/// The path at constant speed; of consecutive equal places only the first is used.
 Route steadyRoute(const MessageValues& values) {
     Route route;
     for (const EnchanterPlace& place : values.places()) {
@@ -129,7 +129,7 @@ void endSoftly(std::vector<CollisionEvent>& segments, const EventShaping& shapin
     segments.back().durationNs = end - segments.back().course.sinceNs;
 }
 
-/// One tone in segments: each continues the phase of the one before.
+/// Events of one moving tone, a segment each, which continue each other's phase.
 std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route& route,
                                        const EventShaping& shaping) {
     std::vector<CollisionEvent> segments;
@@ -148,8 +148,8 @@ std::vector<CollisionEvent> movingTone(const MessageValues& values, const Route&
     return segments;
 }
 
-/// Overlapping stationary vibrations in phase: one tone that is at another place each time. Each begins and
-/// ends at a zero crossing of the tone.
+/// Events of Tactile Brush: stationary vibrations that overlap in phase, as parts of one tone. Each begins
+/// and ends at a zero crossing.
 std::vector<CollisionEvent> strokesAlong(const MessageValues& values, const Route& route, int count,
                                          const EventShaping& shaping) {
     const double length = strokeSeconds(count, route.seconds());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Typed access to the values of one message, by argument name. All error texts are made here, so every input
-// reports the same.
+// Typed access to the values of one message by argument name, with all error texts, and the conversion of
+// messages to the events that they play.
 #pragma once
 #include "Core/EventShaping.h"
 #include "Core/PhantomPanner.h"

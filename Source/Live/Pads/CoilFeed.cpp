@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The device's clock decides how many reports there are, a steady clock when each leaves: blocks come in
-// bursts, and a controller wants its reports evenly.
+// Makes reports of a session's samples. The device's clock determines their number, a steady clock the time
+// of each, because blocks come in bursts and a controller needs reports at an even pace.
 #include "Live/Pads/CoilFeed.h"
 #include "Core/PortableMath.h"
 #include <cmath>
@@ -109,7 +109,7 @@ std::optional<PadReport> CoilFeed::next(std::int64_t nowNs, std::int64_t, float 
         if (isAtRest_ || nowNs - dueNs_ < mostStarved * periodNs()) return {};
         return rest(); // the device has stopped
     }
-    // late samples move all that follows; a late thread does not
+    // late samples delay all later reports; a late thread does not
     dueNs_ = isStarved_ || dueNs_ == 0 ? nowNs : std::max(dueNs_, nowNs - periodNs());
     dueNs_ += isEarly_ ? periodNs() * 999 / 1000 : periodNs();
     isStarved_ = false;
@@ -124,7 +124,7 @@ void CoilFeed::watchReserve() {
     if (frames * static_cast<double>(++reports_) < watchedSeconds * rate) return;
     isEarly_ = static_cast<double>(leastLeft_) > keptSeconds * rate;
     for (; static_cast<double>(leastLeft_) > 2.0 * frames; --leastLeft_, ++skipped_)
-        reducer_.pull(); // what a pause of this thread has left
+        reducer_.pull(); // drops samples that gathered while this thread paused
     leastLeft_ = SIZE_MAX, reports_ = 0;
 }
 

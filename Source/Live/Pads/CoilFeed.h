@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The session's samples for a controller with a coil on either side: panned onto the two, reduced to its
-// rate, at the master level, guarded as at every output, and cut into reports at an even pace.
+// Feeds a controller that has a coil on either side with the session's samples: pans them onto the two coils,
+// reduces their sample rate, applies master level and guard, and sends reports at an even pace.
 #pragma once
 #include "Core/Actuators/GainRamp.h"
 #include "Core/EventQueue.h"
@@ -78,12 +78,12 @@ private:
     std::atomic<int> rateHz_{0}; // of what is in the queue
 
     RateReducer reducer_;
-    int reducedHz_; // that the reducer is for
+    int reducedHz_; // input rate of the reducer
     GainRamp level_;
     DeviceGuard guard_; // remembers what a controller of this kind has had, as a sound device's does
     std::uint32_t number_ = 0;
     std::int64_t dueNs_ = 0; // steady time of the next report; 0: as soon as there are samples
-    std::size_t leastLeft_ = 0, reports_ = 0; // frames that stayed behind, over the last reports
+    std::size_t leastLeft_ = 0, reports_ = 0; // fewest frames left over the last `reports_` reports
     bool isEarly_ = false;                    // more frames wait than needed: a little faster
     bool isStarved_ = false;                  // a report was due before its samples were there
     bool isAtRest_ = true;                    // the last report was all zeros

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Thread that looks for a controller, follows the device's clock and writes the reports that are due.
+// The thread that finds a controller, follows the device's clock and writes the reports that are due.
 #include "Live/Pads/HidOutput.h"
 #include "Io/Text/NumberText.h"
 #include <cerrno>

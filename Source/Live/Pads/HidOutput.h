@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Sink that finds a controller among the system's raw devices, and sends it the reports of a feed while a
-// device plays.
+// Raw HID devices of Linux, sources of reports for them (HidFeed), and a sink that finds a controller and
+// sends it the reports of a feed while an audio device plays.
 #pragma once
 #include "Io/Result.h"
 #include "Live/Pads/GamePads.h"
@@ -45,13 +45,13 @@ struct HidFolders {
 /// An open controller, exclusive within the process; only for writing. One thread at a time.
 class HidDevice {
 public:
-    /// All that are one of these models, by name of their nodes. Empty where the system has no such list. Any
+    /// Connected controllers of these models, sorted by node. Empty where the system has no such list. Any
     /// thread but the render thread (R), as all functions here.
     static std::vector<HidPlace> list(std::span<const HidModel> models,
                                       const HidFolders& folders = HidFolders::ofSystem());
 
-    /// Opens the first whose name or node contains `where`, ignoring case, and that is not open in this
-    /// process; anyPad: any. One line: none is there, or this user may not write to it.
+    /// Opens the first one whose name or node contains `where` (ignoring case; anyPad: any) and that this
+    /// process has not opened. An error if there is none, or this user may not write to it.
     static Result<std::unique_ptr<HidDevice>> open(std::span<const HidModel> models, const std::string& where,
                                                    const HidFolders& folders = HidFolders::ofSystem());
     ~HidDevice();
@@ -80,7 +80,7 @@ struct HidFeedKind {
 
 inline constexpr int silentReports = 5; ///< as Linux' own driver sends to a Switch's controller
 
-/// Makes reports. next() and the others without a remark: one thread, the controller's.
+/// Makes reports. Methods without a remark run on the controller's thread.
 class HidFeed {
 public:
     virtual ~HidFeed() = default;
@@ -100,12 +100,12 @@ public:
     /// The report that is due at that steady time, if one is. `sessionNs`: what is felt now on the device;
     /// `level`: the master level, 0: silent within this report.
     virtual std::optional<PadReport> next(std::int64_t nowNs, std::int64_t sessionNs, float level) = 0;
-    /// A report of silence; sent `silentReports` times, as radio may lose one and a motor holds what it had.
+    /// A report of silence. It is sent `silentReports` times, because radio may lose one.
     virtual PadReport rest() = 0;
     virtual std::uint64_t lost() const noexcept { return 0; }   ///< frames or events; any thread
     virtual bool playsClips() const noexcept { return true; }   ///< as SinkState
     virtual double leadSeconds() const noexcept { return 0.0; } ///< as Sink::latencySeconds
-    virtual double laterSeconds() const noexcept = 0;           ///< than the device, at most, up to the write
+    virtual double laterSeconds() const noexcept = 0;           ///< longest delay of a write after the device
 };
 
 /// Counts of what was sent, for display and tests.
@@ -148,7 +148,7 @@ private:
     const std::string where_;
     const std::unique_ptr<HidFeed> feed_;
 
-    std::unique_ptr<HidDevice> pad_; // the thread's alone, as the next two lines
+    std::unique_ptr<HidDevice> pad_; // used by the thread alone, as the next two lines
     std::int64_t looksNs_ = 0;       // steady clock
     bool hasSent_ = false;           // since it was switched on
 

@@ -82,7 +82,7 @@ void PadOutput::run() {
 void PadOutput::connect(GamePads& pads) {
     if (pad_ ? pad_->isAttached() : steadyNs() < looksNs_) return;
     looksNs_ = steadyNs() + lookNs;
-    pad_.reset();                                            // before it is opened anew
+    pad_.reset();                                            // close it before it is opened again
     pad_ = pads.open(lastName_.empty() ? name_ : lastName_); // this thread alone sets that
     if (!pad_ && !lastName_.empty()) pad_ = pads.open(name_);
     const std::lock_guard lock{device_.mutex};

@@ -63,10 +63,10 @@ private:
     ControlQueue<256> controls_;
     std::atomic<double> leadSeconds_{0.0};
 
-    std::unique_ptr<GamePad> pad_; // the thread's alone, as the next two lines
+    std::unique_ptr<GamePad> pad_; // used by the thread alone, as the next two lines
     PadCommand sent_, wanted_;
     std::int64_t sentNs_ = 0, looksNs_ = 0; // steady clock
-    std::int64_t holdsUntilNs_ = 0; // until then the strongest of several is felt; then what is wanted
+    std::int64_t holdsUntilNs_ = 0; // until then the strongest of several commands stays; then wanted_
 
     FollowedDevice device_; // its mutex guards the members below, used by the thread and M
     PadProfile profile_;
@@ -76,7 +76,7 @@ private:
     PadMotors motors_{PadLaw{}};
     const PhantomPanner first_; // the session's first panner
     PhantomPanner grips_;
-    std::vector<PannerChange> layouts_; // grips, waiting for their time, as the next
+    std::vector<PannerChange> layouts_; // panners and stops that wait for their time
     std::vector<std::int64_t> stopsNs_;
     PadCounts counts_;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reports that carry vibration to controllers with coils, byte by byte. Tried on no controller; sources are
-// in Docs/pads.md.
+// Byte formats of vibration reports for controllers with coils. Not tried on hardware; Docs/pads.md has the
+// sources.
 #pragma once
 #include "Io/Text/CleanText.h"
 #include <array>
@@ -22,7 +22,7 @@ struct PadReport {
 /// One frame: left coil, right coil, -1 to 1.
 using CoilFrame = std::array<float, 2>;
 
-/// How a controller takes samples.
+/// Format in which a controller receives samples.
 struct CoilFormat {
     int rateHz; ///< of its frames
     int frames; ///< of one report

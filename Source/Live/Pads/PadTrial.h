@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs the motors of a controller one after the other, to be felt by the user or measured by the controller's
-// accelerometer.
+// Trial of a controller's motors, one after the other: the user feels them, or the controller's accelerometer
+// measures them and a model is fitted.
 #pragma once
 #include "Core/Pads/PadMotors.h"
 #include "Io/Result.h"

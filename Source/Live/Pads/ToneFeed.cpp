@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From what rings to two tones. A report is short against most decays, so the mean energy within it counts.
+// Converts sounding events to two tones per report by their mean energy, as most decays are longer.
 #include "Live/Pads/ToneFeed.h"
 #include "Core/Pads/PadMotors.h"
 #include "Core/PortableMath.h"

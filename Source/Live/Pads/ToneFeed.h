@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The session's events for a controller that plays two tones on either side (HD rumble): each report carries,
-// per side, the two tones that fit what rings until the next one.
+// Feeds a controller that plays two tones on either side (HD rumble) with the session's events: each report
+// has the two tones per side that fit best what sounds until the next report.
 #pragma once
 #include "Core/ControlQueue.h"
 #include "Core/PhantomPanner.h"
@@ -32,8 +32,8 @@ public:
     struct Partial {
         double frequencyHz, energy;
     };
-    /// The two tones that fit them: divided where both parts are nearest to a tone that can be played, each
-    /// part's energy at its mean pitch. Their energy is at most 1. Any thread.
+    /// The two tones that fit the partials best: these are divided where both parts are nearest to playable
+    /// tones, and each tone has its part's energy and mean pitch. Total energy is at most 1. Any thread.
     static TonePair fitted(std::vector<Partial> partials);
 
 private:
@@ -49,7 +49,7 @@ private:
     PhantomPanner grips_;
     EventQueue<CollisionEvent, 4096> events_; // in session time
     ControlQueue<256> controls_;
-    std::vector<PannerChange> layouts_; // grips, waiting for their time, as the next
+    std::vector<PannerChange> layouts_; // panners and stops that wait for their time
     std::vector<std::int64_t> stopsNs_;
     std::vector<Voice> voices_;
     std::int64_t dueNs_ = INT64_MIN / 2; // steady time of the next report

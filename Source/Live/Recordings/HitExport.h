@@ -22,7 +22,7 @@ struct HitExport {
     std::string actuator{}; ///< of all actuators; empty: each has its own
 };
 
-/// A clip, a channel per actuator with place and device; `drawn` says how hits become curves. Or one line. M.
+/// A clip with a channel per actuator, drawn with the settings `drawn`; or the error in one line. M.
 Result<Clip> clipOfHits(const HitExport& hits, const StrikeClipSettings& drawn);
 
 /// One file of an exported clip.

@@ -12,7 +12,7 @@
 
 namespace physvib {
 
-/// Those of `log`; or one line if a file is missing, has changed or has no hit, or there are too many. M.
+/// Loads the recordings of `log`. An error if a file is missing, has changed or has no hit, or too many. M.
 Result<LoadedRecordings> loadRecordings(const SessionLog& log);
 
 /// Paths of these files. Any thread.
@@ -38,7 +38,7 @@ public:
         : folder_{std::move(folder)} {}
 
     /// Loads a recording or a haptic file (see readRecording), which must be in the folder or below after all
-    /// links are followed. Or one line.
+    /// links are followed. Returns the error in one line otherwise.
     Result<LoadedClip> operator()(const std::string& name) const;
 
 private:

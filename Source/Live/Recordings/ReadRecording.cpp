@@ -127,8 +127,8 @@ std::string damage(const std::string& expected, std::int64_t frames) {
     return "expected " + expected + ", found damage or the end after " + std::to_string(frames);
 }
 
-/// What only a pass over all samples shows: how many there are, and where they stand in more room than they
-/// need. WAVE has them in the upper bits; ALSA's arecord writes them into the lower ones.
+/// Results of a pass over all samples: their number, and their alignment in a container with more bits. WAVE
+/// has them in the upper bits; ALSA's arecord writes them into the lower ones.
 std::string survey(std::FILE& file, const SoundHead& sound, std::int64_t mostSeconds, SoundShape& shape,
                    float& gain) {
     SoundPass pass{file, sound};
@@ -220,7 +220,7 @@ std::string decodeSound(std::FILE& file, std::int64_t bytes, std::int64_t mostSe
     const SoundHead& sound = head.value;
     SoundShape shape = sound.shape;
     const bool isTold = shape.frames > 0;
-    // before the library has anything to do, where the file says what there is
+    // before the library reads anything, if the header has the number of samples
     if (auto fault = isTold ? taker.begin(shape) : ""; !fault.empty()) return fault;
     float gain = 1.0f;
     if (sound.isSurveyed)

@@ -12,7 +12,7 @@
 #include <string_view>
 
 namespace physvib {
-/// Names of recordings usually end so; what they are is decided by their content.
+/// Usual extensions of recordings. Their content, not the extension, decides the format.
 inline constexpr std::array<std::string_view, 6> soundEndings{".wav",  ".aiff", ".aif",
                                                               ".flac", ".ogg",  ".opus"};
 
@@ -32,7 +32,7 @@ std::string takeSlowPart(SampledSound& sound, const std::filesystem::path& path,
 /// the file, with the file's error or that of `taker`. No clips. Any thread but R.
 std::string streamRecording(const std::filesystem::path& path, SoundTaker& taker);
 
-// What a sound file says of itself, checked against what is there, before a library reads it.
+// The header of a sound file, checked against the file's content before a library reads it.
 
 /// The part of a file that libsndfile is to read, and how.
 struct SoundHead {
@@ -41,14 +41,14 @@ struct SoundHead {
     std::int64_t begin = 0;   ///< of the part, in bytes
     std::int64_t bytes = 0;   ///< its length
     SoundShape shape{};       ///< as the file says; 0 frames: libsndfile knows
-    bool isSurveyed = false;  ///< all samples are looked at first: for their number, or their place
-    int bits = 0, room = 0;   ///< of a sample of WAVE, and of its place
-    bool isLowRather = false; ///< it stands in the lower bits, if the samples do not show where
+    bool isSurveyed = false;  ///< all samples are read once before, to find their number or alignment
+    int bits = 0, room = 0;   ///< bits of a sample of WAVE, and of its container
+    bool isLowRather = false; ///< assume the lower bits if the samples do not show the alignment
 };
 
-/// Of a file that is `bytes` long. Or what is wrong with it, without its name: another kind of file, fewer
-/// bytes or more than it says, several streams. A length that was not known when the header was written is
-/// what is there. Any thread but R.
+/// Reads the header of a file of `bytes` bytes. The error, without the file's name, tells another kind of
+/// file, a wrong length or several streams. A length that the header leaves open is that of the file. Any
+/// thread but R.
 Result<SoundHead> readSoundHead(std::FILE& file, std::int64_t bytes);
 
 // Samples of sound files, by libsndfile.

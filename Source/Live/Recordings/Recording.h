@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Records a live session: the channels as a WAV file, and the events as CSV in the WAV's time.
+// Records a live session as a WAV file and a CSV of its events in the WAV's time; renders saved sessions.
 #pragma once
 #include "Core/RenderControl.h"
 #include "Io/Disk/AtomicFile.h"

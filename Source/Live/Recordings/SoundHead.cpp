@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Walks chunks, blocks and pages, and leaves samples alone.
+// Reads the headers of sound files: walks over chunks, blocks and pages without reading samples.
 #include "Live/Recordings/ReadRecording.h"
 #include <algorithm>
 #include <sndfile.h>
@@ -84,9 +84,9 @@ private:
                (rest.size() <= sector && rest.find_first_not_of('\0') == std::string::npos);
     }
 
-    /// How many bytes of samples there are in a chunk that tells `told`.
+    /// Sets the number of bytes of samples; the chunk's header says `told`. Empty, or the error.
     std::string takeData(const Chunk& data, std::int64_t told, bool isBig, bool isLong) {
-        // What programs write which do not know the length yet: 0, near 2 or 4 GiB; of 64 bits, the largest.
+        // Programs that do not know the length yet write 0, nearly 2 or 4 GiB, or the largest 64-bit number.
         constexpr std::int64_t near = 1 << 16;
         const std::int64_t present = bytes_ - data.begin;
         const bool isPlaceholder =
@@ -105,7 +105,7 @@ private:
                    : expected + std::to_string(bytes_ - end) + " more, which are no other chunks";
     }
 
-    /// The chunks before the samples.
+    /// Reads the chunks before the samples. Empty, or the error.
     std::string readChunks(std::int64_t at, const char* samples, bool isBig, bool isLong) {
         std::string format;
         std::int64_t longBytes = 0;
@@ -123,7 +123,7 @@ private:
         return chunk.name == "data" ? takeFormat(format, isBig, chunk.begin) : std::string{};
     }
 
-    /// How each sample stands in its block.
+    /// Reads how each sample stands in its block. Empty, or the error.
     std::string takeFormat(const std::string& format, bool isBig, std::int64_t begin) {
         constexpr std::int64_t pcm = 1, ieeeFloat = 3, aLaw = 6, muLaw = 7, extensible = 0xfffe;
         constexpr std::array types{SF_FORMAT_PCM_U8, SF_FORMAT_PCM_16, SF_FORMAT_PCM_24, SF_FORMAT_PCM_32};
@@ -135,7 +135,7 @@ private:
                    tag = field(0, 2) == extensible && format.size() == 40 ? field(24, 2) : field(0, 2);
         std::int64_t room = width;
         if (channels > 0 && tag == pcm && width >= 1 && width <= 4) {
-            // Smaller blocks, in which samples have no room, are a slip; larger ones are not.
+            // Blocks that are too small for their samples are a mistake and ignored; larger ones are not.
             if (block > channels * width && width > 1 && block % channels == 0)
                 room = std::min<std::int64_t>(block / channels, 4);
             head_.format = types[static_cast<std::size_t>(room) - 1];

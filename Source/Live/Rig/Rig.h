@@ -64,14 +64,14 @@ struct RigSettings {
     Provenance provenance{};  ///< of the event list
 };
 
-/// What does not work, and its one-line error.
+/// A part of the rig that does not work, and its one-line error.
 struct RigTrouble {
     std::string source; ///< "device", "events", the name of a sink, "journal" or "recording"
     std::string words;
     bool operator==(const RigTrouble&) const = default;
 };
 
-/// One line on events that were dropped as no device ran (DevicePulse); empty: none were.
+/// One line on events that were dropped because no device ran (DevicePulse); empty if there were none.
 std::string droppedWords(std::uint64_t events);
 
 /// All methods M only, except session() and those methods of it that any thread may call.
@@ -116,7 +116,7 @@ public:
     /// Errors of the device and events that it did not run for (from the last maintain()), the sinks, the
     /// journal and the recording.
     std::vector<RigTrouble> troubles() const;
-    /// The same in one line; empty: none.
+    /// All errors in one line; empty if there are none.
     std::string trouble() const;
     /// State of each sink.
     std::vector<SinkState> sinkStates() const;

@@ -192,7 +192,7 @@ void BoardLink::receive() {
 
 void BoardLink::handle(std::span<const std::uint8_t> payload) {
     heardNs_ = nowNs();
-    // only the first of several replies
+    // of several replies only the first counts
     if (wire::HelloReply hello; wire::decode(payload, hello) && now_.state == State::greeting)
         return meet(hello);
     if (wire::Pong pong; wire::decode(payload, pong) && now_.state >= State::synchronising) return take(pong);
@@ -212,7 +212,7 @@ void BoardLink::meet(const wire::HelloReply& board) {
     ++now_.connections;
 }
 
-// A pong without a ping, or a second one, is useless for the clock.
+// Adds the pong to the clock, unless its ping is unknown or was answered already.
 void BoardLink::take(const wire::Pong& pong) {
     const std::int64_t sentNs = std::exchange(pingSentNs_[pong.id], 0);
     if (sentNs == 0 || heardNs_ - sentNs > longestAnswer) return;

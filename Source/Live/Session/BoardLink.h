@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The computer's side of the four-channel vibration board: a link thread that finds the board, tracks its
-// clock and sends events.
+// The computer's side of the four-channel vibration board: serial ports and lines, and a link thread that
+// finds the board, tracks its clock and sends events.
 //
 // The link thread owns the serial line and all state of the connection. Events arrive through a wait-free
 // queue, orders and the status under a lock that is never held while waiting. An event is sent as soon as the
@@ -95,7 +95,7 @@ public:
     /// The clock of BoardStrike::onsetNs. Any thread.
     static std::int64_t nowNs() noexcept;
 
-    /// False, and counted, if the queue is full. One producer, wait-free.
+    /// Queues an event. False, and counted as thinned, if the queue is full. One producer, wait-free.
     bool push(const BoardStrike& strike) noexcept { return strikes_.push(strike); }
 
     /// True if the connected board plays segments; otherwise moving tones are sent as series of events. Link
@@ -127,7 +127,7 @@ public:
     void setGains(const std::array<double, limits::board::channels>& gains);
 
     BoardLinkStatus status() const;
-    bool hasMet() const { ///< a board, whether it is there now or not
+    bool hasMet() const { ///< whether a board has ever answered
         const std::scoped_lock lock{mutex_};
         return published_.connections > 0;
     }
@@ -150,12 +150,12 @@ private:
     void handle(std::span<const std::uint8_t> payload);
     void meet(const wire::HelloReply& board);
     void take(const wire::Pong& pong);
-    void greet();
-    void keepInTouch();
-    void obey();
+    void greet();       // repeats Hello until the board answers
+    void keepInTouch(); // sends pings, requests for telemetry and gains when they are due
+    void obey();        // executes pending orders
     void sendStrikes();
     void publish();
-    double transitMs() const;
+    double transitMs() const; // longest time from sending until the board can play
     bool isLineFree(std::int64_t now) const;
     template <class Message>
     void send(const Message& message);

@@ -43,7 +43,7 @@ std::vector<SinkState::Fact> factsOf(const BoardLinkStatus& s) {
     return facts;
 }
 
-// Without a port of its own the link tries one after the other: what it says of each would only flicker.
+// With anyBoard the link tries one port after the other, so the errors of single ports are not shown.
 std::string troubleOf(const BoardLinkStatus& s, const std::string& port, double latencySeconds) {
     if (s.state == State::ready) {
         if (s.outputLatencyMs <= 1e3 * latencySeconds) return {};
@@ -144,7 +144,7 @@ void BoardOutput::apply(const RenderControl& control) {
     if (control.kind == RenderControl::Kind::mute) muted_[channel] = control.value != 0.0f;
 }
 
-// Not earlier than the link would send them: a path of a minute must not fill its queue.
+// Passes steps to the link only when it would send them, so that a path of a minute does not fill its queue.
 void BoardOutput::takeSteps() {
     const std::int64_t until = BoardLink::nowNs() + BoardLink::sendAheadMs * 1'000'000;
     for (BoardSteps& steps : steps_)

@@ -25,12 +25,12 @@ namespace physvib {
 /// Runs on the link thread while it follows a device.
 class BoardOutput final : public Sink {
 public:
-    /// For a board that is not waited for: the link needs 20 to 40 ms. A board that needs more is reported.
+    /// Used if the board is not awaited: the link needs 20 to 40 ms. A board that needs more is reported.
     static constexpr double usualLatencySeconds = 0.05;
 
-    /// The board at `port`, or anyBoard; `panner`: the session's, of at most four actuators. Events must be
-    /// known `latencySeconds` ahead, or longer: as the link requires it if it is awaited, else the usual time
-    /// from when a board has answered, so that one that is not there delays nothing. Message thread (M).
+    /// `port` may be anyBoard; `panner` is the session's, of at most four actuators. Events must be known at
+    /// least `latencySeconds` ahead: longer if an awaited link requires it, or, once a board has answered,
+    /// for the usual time, so that a missing board delays nothing. Message thread (M).
     BoardOutput(std::string port, const PhantomPanner& panner, double latencySeconds = 0.0);
     ~BoardOutput() override { follow(nullptr); }
 
@@ -66,7 +66,7 @@ private:
     // two per moving tone: the sounding segment and the next
     static constexpr std::ptrdiff_t mostPaths = limits::board::maxSegments / 2;
 
-    const std::string port_; // as it is wanted
+    const std::string port_; // as requested
     BoardLink link_;
     double latencySeconds_;
     bool isAwaited_ = false; // then latencySeconds_ is what the board needs
@@ -79,7 +79,7 @@ private:
     int rateHz_ = 0; // of the session
     SessionClock clock_;
     PhantomPanner panner_;
-    std::vector<PannerChange> layouts_; // pending until their time, as the next
+    std::vector<PannerChange> layouts_; // panners and other controls that wait
     std::vector<RenderControl> others_;
     std::vector<BoardPath> paths_;  // moving and long tones, until their end is felt: another may follow
     std::vector<BoardSteps> steps_; // such tones as events: further ones, or for boards without segments

@@ -8,13 +8,13 @@ namespace physvib {
 
 namespace {
 
-// Constant power at every place.
+// A panner between left and right with constant power at every place.
 PhantomPanner betweenEars(double fieldWidthMetres, double fieldHeightMetres) noexcept {
     const EnchanterLayout ears{1.0, 1.0, 2, {{{0.0, 0.5}, {1.0, 0.5}}}};
     return {ears, PanningLaw::energy, 1.0, fieldWidthMetres, fieldHeightMetres};
 }
 
-// With one channel the place does not matter.
+// Settings of the renderer. With one channel the place does not matter.
 RendererSettings settingsAt(int sampleRateHz, int ears, const PhantomPanner& field) {
     const EnchanterLayout here{1.0, 1.0, 1, {}};
     return {.sampleRateHz = sampleRateHz,
@@ -22,7 +22,7 @@ RendererSettings settingsAt(int sampleRateHz, int ears, const PhantomPanner& fie
                                : PhantomPanner{here, PanningLaw::linear, 1.0, 1.0, 1.0}};
 }
 
-// What of the actuators' controls changes the audio: stops, and with two channels fields.
+// The controls that also act on the audio: stops, and with two channels changes of the field.
 std::vector<RenderControl> controlsOf(std::vector<RenderControl> actuators, int ears,
                                       std::deque<PhantomPanner>& panners) {
     using enum RenderControl::Kind;

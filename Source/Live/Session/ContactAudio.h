@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Audio of the contacts, for loudspeakers or headphones: one channel or left and right beside the actuators'
-// channels, sample-synchronous with them.
+// Audio of the contacts for loudspeakers or headphones, one channel or two, in sync with the actuators'
+// samples; and RenderedChannels, all channels of a session.
 #pragma once
 #include "Core/ControlQueue.h"
 #include "Core/HapticRenderer.h"
@@ -30,8 +30,8 @@ public:
 
     int ears() const noexcept { return ears_; } ///< Any thread.
 
-    /// prepare: silence at frame 0. moveTo: another rate and frame, see HapticRenderer::moveTo. Message
-    /// thread (M), not while rendering.
+    /// prepare() starts with silence at frame 0; moveTo() continues at another rate and frame, as
+    /// HapticRenderer::moveTo. Message thread (M), not while rendering.
     void prepare(int sampleRateHz);
     void moveTo(int sampleRateHz, std::int64_t frame);
 
@@ -47,7 +47,7 @@ public:
     /// As HapticRenderer. R, wait-free.
     void discard(const WaitingEvents& which) noexcept PHYSVIB_NONBLOCKING;
 
-    /// The same frames as the actuators' renderer, after it. R, wait-free.
+    /// Renders the same frames as the actuators' renderer; call it after that one. R, wait-free.
     void render(float* const* out, int frames) noexcept PHYSVIB_NONBLOCKING;
 
     /// Impacts, stops and field changes that did not fit the queues. Any thread.
@@ -84,8 +84,8 @@ struct ContactAudioRender {
     RecordedContacts recordings{};
 };
 
-/// Renders offline what ContactAudio plays of `events`, of which clips are not heard, and of the actuators'
-/// `controls`. Message thread (M) only.
+/// Renders offline what ContactAudio plays of `events` (without clips) and of the actuators' `controls`.
+/// Message thread (M) only.
 RenderStatus renderContactAudio(std::vector<CollisionEvent> events, std::vector<RenderControl> controls,
                                 const ContactAudioRender& heard, const BlockConsumer& consume);
 
@@ -123,7 +123,7 @@ private:
         std::ranges::copy(setup.ceilings, ceilings_.begin());
     }
 
-    /// One thread at a time, as the next one.
+    /// Notes a control's mute or gain for mutedChannels(). One thread at a time, as the next one.
     void note(const RenderControl& control) noexcept {
         last_.take(control);
         muted_.store(last_.mutedChannels(), std::memory_order_relaxed);
@@ -134,8 +134,8 @@ private:
         most = std::max(most.load(), to);
     }
 
-    /// prepare: silence, beginning with that frame. moveTo: another rate, where the actuators' renderer is at
-    /// frame `rendered`. Message thread (M), not while rendering.
+    /// prepare() starts with silence at that frame; moveTo() continues at another rate, at which the
+    /// actuators' renderer is at frame `rendered`. Message thread (M), not while rendering.
     void prepare(int sampleRateHz, std::int64_t firstFrame) {
         if (contactAudio_) contactAudio_->prepare(sampleRateHz);
         if (marks_) marks_->prepare(sampleRateHz, firstFrame);
@@ -145,8 +145,8 @@ private:
         if (marks_) marks_->prepare(sampleRateHz, nextFrame);
     }
 
-    /// Repeats what the actuators' renderer was given; struck: what it plays, with its first frame. Render
-    /// thread (R), wait-free.
+    /// mirror() passes on what the actuators' renderer was given; struck() marks an event that it plays from
+    /// `frame` on. Render thread (R), wait-free.
     void mirror(const CollisionEvent& event) noexcept {
         if (contactAudio_ && !isClip(event.sound)) contactAudio_->mirror(event);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Recordings of contacts, as read from files and resampled to the renderer's rate.
+// Recordings of contacts and clips of a session, as read from files and resampled to the renderer's rate.
 #pragma once
 #include "Core/NameNumbers.h"
 #include "Core/RenderControl.h"

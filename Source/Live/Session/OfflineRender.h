@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Renders a list of events offline, as fast as possible, to the samples that the live renderer would play,
-// without latency.
+// Offline rendering of an event list to the samples that the live renderer would play, without latency; and a
+// time limit for the simulation before it.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/HapticRenderer.h"

@@ -67,7 +67,7 @@ public:
         }
     }
 
-    /// Pulses, and onsets that shared one. Any thread.
+    /// Number of pulses, and of onsets that shared the pulse of another. Any thread.
     std::uint64_t made() const noexcept { return made_.load(std::memory_order_relaxed); }
     std::uint64_t shared() const noexcept { return shared_.load(std::memory_order_relaxed); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// State of an output device for the sinks that follow it: when a session time is felt, the master level, and
-// mute.
+// State of an output device for the sinks that follow it: pauses, mute requests, output time and level; and
+// how a sink follows it: an estimate of when a session time is felt, and restarts.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace physvib {
 
-// Whether the device that plays a session asks for blocks. While it does not, session time stands still, and
-// what came meanwhile would be felt all at once when it comes back: it is dropped, and counted.
+// Tells whether the device that plays a session asks for blocks. While it does not, session time stands still
+// and events are dropped and counted, because they would all be felt at once when the device returns.
 
 /// A time of the steady clock, in nanoseconds.
 inline std::int64_t
@@ -38,17 +38,16 @@ public:
         return 3 * blockNs > 100'000'000 ? 3 * blockNs : 100'000'000;
     }
 
-    /// A device starts that pauses for at most `limitNs`; never: its pauses do not count. The first one has
-    /// goneNs until its first block. Message thread (M), while the render thread (R)
-    /// does not run.
+    /// A device starts; a pause of more than `limitNs` counts, with `never` none does. The first device has
+    /// goneNs until its first block. Message thread (M), while the render thread (R) does not run.
     void begin(std::int64_t limitNs, std::int64_t nowNs) noexcept {
         limitNs_.store(limitNs, std::memory_order_relaxed);
         if (lastNs_.load(std::memory_order_relaxed) == never)
             lastNs_.store(nowNs + goneNs, std::memory_order_release);
     }
 
-    /// What waits for a device and is dropped when it is back: strikes up to a session time; all after a
-    /// pause so long that the device counts as gone.
+    /// Tells which waiting events are dropped when a device returns: those up to a session time, or all after
+    /// a pause so long that the device counts as gone.
     struct Return {
         std::uint64_t pauses = 0, losses = 0; ///< ended so far; losses: the long ones
         std::int64_t untilNs = 0;             ///< of the last pause
@@ -64,11 +63,11 @@ public:
     }
     /// A block that began at `nowNs` has been rendered: from now on the device runs. R, wait-free.
     void beat(std::int64_t nowNs) noexcept { lastNs_.store(nowNs, std::memory_order_release); }
-    /// When the last block began, by beat(); before the first one far away. Any thread.
+    /// Start of the last block, from beat(); a time in the far future before the first. Any thread.
     std::int64_t lastNs() const noexcept {
         return std::min(lastNs_.load(std::memory_order_acquire), never / 2);
     }
-    /// The device is closed, and no other opened: an endless pause. M, while R does not run.
+    /// Call when the device is closed and no other opened: an endless pause begins. M, while R does not run.
     void end() noexcept { limitNs_.store(0, std::memory_order_relaxed); }
 
     /// Whether the device pauses. False before the first begin(): the session has no device. Any thread.
@@ -115,7 +114,7 @@ public:
     /// Requests silence; returns the number of the request: 1 for the first of `holder`.
     std::uint64_t request(MuteRequester holder) noexcept { return of(holder).asked.fetch_add(1) + 1; }
 
-    /// The same for a request that has a number already; repeating it changes nothing.
+    /// Requests silence with a number that the input gave; repeating it changes nothing.
     void request(MuteRequester holder, std::uint64_t number) noexcept { raise(of(holder).asked, number); }
 
     /// How many times `holder` has requested silence.
@@ -159,7 +158,7 @@ private:
     std::array<Requests, 3> requests_;
 };
 
-/// What happened at `sessionNs` is felt at `steadyNs` of the steady clock.
+/// An event of session time `sessionNs` is felt at `steadyNs` of the steady clock.
 struct OutputMoment {
     std::int64_t sessionNs = 0, steadyNs = 0;
     std::int64_t behindNs = 0; ///< lag of the felt time: output latency plus the device's own
@@ -172,7 +171,7 @@ public:
     explicit OutputClock(const std::atomic<bool>* isEnded = nullptr)
         : isEnded_{isEnded} {}
 
-    /// Of the newest block; {}: none yet. Any thread but the render thread (R).
+    /// The moment of the newest block; {} before the first. Any thread but the render thread (R).
     OutputMoment felt() const noexcept {
         for (;;) {
             const auto before = writes_.load(std::memory_order_acquire);
@@ -204,7 +203,7 @@ public:
 protected:
     ~OutputClock() = default;
 
-    /// R, wait-free.
+    /// Publishes the moment of a block for felt(). R, wait-free.
     void tell(const OutputMoment& moment) noexcept {
         const auto before = writes_.load(std::memory_order_relaxed);
         writes_.store(before + 1, std::memory_order_relaxed);
@@ -237,7 +236,7 @@ class SessionClock {
 public:
     static constexpr std::int64_t halfWindowNs = 250'000'000, pauseNs = 80'000'000;
 
-    /// In time order; repeating a moment changes nothing.
+    /// Adds the moments in time order; a repeated moment changes nothing.
     void add(const OutputMoment& moment) noexcept {
         const std::int64_t lag = moment.steadyNs - moment.sessionNs, age = moment.steadyNs - halfBeganNs_;
         // the first, or the first after a pause, in which session time stood still
@@ -265,14 +264,14 @@ private:
     bool isReady_ = false;
 };
 
-/// The device that a sink with a thread of its own follows. Members are called with `mutex` locked, which
-/// guards what that thread and M share, but for those that lock it.
+/// The device that a sink with a thread of its own follows. `mutex` guards what that thread and M share.
+/// Callers hold it, except for members that lock it themselves ("Locks.").
 class FollowedDevice {
 public:
     mutable std::mutex mutex;
 
-    /// Locks. M waits for the thread to rest, a moment at most, or until `isOver()`. `change()` is called
-    /// first, unless that device is followed already.
+    /// Locks. Unless that device is followed already, calls `change()`; then M waits, briefly, until the
+    /// thread has stopped its output or `isOver()`.
     void follow(OutputClock* device, auto change, auto isOver) {
         std::unique_lock lock{mutex};
         if (device == device_) return;
@@ -282,8 +281,8 @@ public:
         beginsAnew_ = true;
         rested_.wait_for(lock, mostRest, [&] { return !beginsAnew_ || isOver(); });
     }
-    /// Locks. The thread: if the device is another one, what was sent before ends by `rest()`, without the
-    /// lock; then `begin()`.
+    /// Locks. On the sink's thread: if the device has changed, calls `rest()` without the lock to end the
+    /// output, then `begin()` with it.
     void beginAnew(auto rest, auto begin) {
         std::unique_lock lock{mutex};
         if (!beginsAnew_) return;
@@ -295,7 +294,7 @@ public:
         beginsAnew_ = false;
         rested_.notify_all();
     }
-    /// The thread: the session time that is felt at `nowNs`, after `begin()` if it went back; none: unknown.
+    /// On the sink's thread: the session time felt at `nowNs`, if known; calls `begin()` if it went back.
     std::optional<std::int64_t> sessionNs(std::int64_t nowNs, auto begin) {
         if (device_ == nullptr || beginsAnew_) return {};
         if (const OutputMoment felt = device_->felt(); felt.steadyNs != 0) clock_.add(felt);
@@ -305,7 +304,7 @@ public:
         return playedNs_ = now;
     }
     float level() const { return device_->isSilent() ? 0.0f : device_->level(); } ///< where there is a time
-    /// Locks. `trouble()` once `isReady()` or nobody wants to wait longer.
+    /// Locks. Waits until `isReady()`, for `patienceNs` at most and while `keepGoing()`; returns `trouble()`.
     std::string await(std::int64_t patienceNs, const std::function<bool()>& keepGoing, auto isReady,
                       auto trouble) const {
         const std::int64_t endNs = steadyNs() + patienceNs;

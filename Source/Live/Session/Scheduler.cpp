@@ -9,7 +9,7 @@ namespace physvib {
 
 namespace {
 
-/// Events of an input that would be felt once each: all but changes of state, of which the last counts.
+/// Number of events that are felt once each. Changes of state, of which only the last one counts, have none.
 std::size_t eventsOf(const Input& input) noexcept {
     if (const auto* strikes = std::get_if<Strikes>(&input.what)) return strikes->events.size();
     const auto* action = std::get_if<Action>(&input.what);
@@ -77,7 +77,7 @@ Result<std::int64_t> Scheduler::submit(RenderControl& control, std::int64_t) {
     return control.timeNs;
 }
 
-// At its own time, but not before that of an earlier control.
+// Sends a control at its own time, but not before that of an earlier control.
 bool Scheduler::post(RenderControl& control) {
     control.timeNs = std::max(control.timeNs, lastControlNs_); // a later stop may have been posted before
     if (!controls_.push(control)) return false;
@@ -163,8 +163,8 @@ Result<std::int64_t> Scheduler::submit(Lanes& lanes, std::int64_t) {
     return time_.nowNs();
 }
 
-// Works like a moved fader at the time of the step. Logged, so that a later render is the same whatever
-// happens to the lane.
+// Acts like a fader that is moved at the time of the step. The gains are logged, so that a later render does
+// not depend on the lane.
 void Scheduler::followLanes() {
     if (!follows_.load(std::memory_order_relaxed)) return;
     const std::lock_guard lock{mutex_};
@@ -271,7 +271,7 @@ bool CallbackInputs::silence(int frame) noexcept {
 }
 
 bool CallbackInputs::perform(RenderInput input, int frame) noexcept {
-    if (!hasWorld_) return true; // nobody would ever take it from the queue
+    if (!hasWorld_) return true; // no world would take it from the queue
     input.timeNs = time_.nextNs(frame);
     return inputs_.push(input);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Processes all inputs to a session from outside: checks them, gives them a time, logs them, and passes them
-// to the world or the renderer.
+// Inputs to a session. CallbackInputs take those of the render call; Scheduler checks, times and logs all
+// others and passes them to the world or the renderer; InputQueue connects an input's reader to its consumer.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/ControlQueue.h"
@@ -59,9 +59,9 @@ public:
     /// output latency later, or the renderer's latency later if the session is direct. False, and counted,
     /// if the queue is full. Render thread (R), wait-free.
     bool strike(CollisionEvent event, int frame) noexcept { return strike(event, frame, 0); }
-    /// `afterNs` after that frame, which may be past
+    /// The same `afterNs` after that frame, which may be in the past.
     bool strike(CollisionEvent event, int frame, std::int64_t afterNs) noexcept;
-    /// its panner is copied; at most 16 of them wait
+    /// Copies the control's panner; at most 16 panners can wait.
     bool control(RenderControl control, int frame) noexcept;
     bool perform(RenderInput input, int frame) noexcept; ///< acts in the world's next step, if there is one
 

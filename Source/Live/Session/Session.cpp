@@ -57,7 +57,7 @@ void Session::prepare(int sampleRateHz, int maxBlockFrames) {
                              .modes = setup_.modes,
                              .equalised = setup_.equalised,
                              .normalisesBlocks = setup_.normalisesBlocks}))
-        throw std::bad_alloc{}; // else it would be silent without a word
+        throw std::bad_alloc{}; // instead of silence without an error
     renderer_->setContacts(scheduler_.contactsAt(sampleRateHz));
     channels_.prepare(sampleRateHz, -renderer_->latencyFrames());
     const ClockLaw law = lawAt(sampleRateHz, maxBlockFrames);
@@ -100,7 +100,7 @@ int Session::advance(const StepWatch& keepGoing) {
 void Session::comeBack(std::int64_t nowNs) noexcept {
     const std::int64_t present = time_.nowNs();
     const bool wasGone = pulse_.comeBack(nowNs, present);
-    // What sounds goes on: a note that is held is state.
+    // Sounding modes continue, since a held note is state.
     const WaitingEvents late{wasGone ? INT64_MAX : present, setup_.areEventsOfCaller()};
     Source source{*this, RenderMode::realtime, FrameClock{time_.law().sampleRateHz}, 0, present};
     pulse_.drop(static_cast<std::uint64_t>(renderer_->discard(source, late)));

@@ -37,15 +37,15 @@ public:
     /// M. Throws std::invalid_argument if the scene is not valid.
     explicit Session(const SessionSetup& setup)
         : Session{std::make_shared<const SessionSetup>(setup)} {}
-    /// Without a copy.
+    /// The same without a copy of the setup.
     explicit Session(std::shared_ptr<const SessionSetup> setup);
 
     /// Sets the output latency. Session time 0, silence, the scene at its start, an empty log. M, while no
     /// thread renders or drives. Throws std::bad_alloc without memory, as resume does.
     void prepare(int sampleRateHz, int maxBlockFrames);
 
-    /// Continues at another rate and block size: session time, world and sounding modes continue, the
-    /// output latency is set anew. M, while no thread renders.
+    /// Continues at another rate and block size: session time, world and sounding modes go on, and the output
+    /// latency is computed again. M, while no thread renders.
     void resume(int sampleRateHz, int maxBlockFrames);
 
     const Timeline& timeline() const noexcept { return time_; }
@@ -72,9 +72,9 @@ public:
         return time_.framesMissing(frames, world_.steppedNs_);
     }
 
-    /// The device comes back after a pause, at `nowNs` of the steady clock; before the next render. Strikes
-    /// that were to act at once are dropped; if the device was gone, all strikes that wait. What sounds, the
-    /// world and its collisions go on. R, wait-free.
+    /// Call before the first render after a pause of the device; `nowNs` is steady time. Drops events that
+    /// were due at once, or all waiting events if the device was gone. Sounding modes, the world and its
+    /// collisions continue. R, wait-free.
     void comeBack(std::int64_t nowNs) noexcept;
 
     /// Replaces render: session time advances by `frames` and the output latency grows by as much, so
@@ -115,7 +115,7 @@ public:
     SinkSet& sinks() noexcept { return sinks_; }
     const SinkSet& sinks() const noexcept { return sinks_; }
 
-    /// Whether its device asks for blocks; the output that plays it tells. Any thread.
+    /// State of the device that plays the session, set by its output. Any thread.
     DevicePulse& pulse() noexcept { return pulse_; }
     const DevicePulse& pulse() const noexcept { return pulse_; }
 
@@ -143,7 +143,7 @@ private:
     std::int64_t leastMarginFrames_ = noMargin; // R
 };
 
-/// The output latency is as long as its sinks need; one that has come since needs Session::resume(). M.
+/// Whether the output latency suffices for all sinks; if not, Session::resume() lengthens it. M.
 inline bool coversSinks(const Session& session) {
     return session.sinks().latencySeconds() <= session.timeline().sinkSeconds();
 }

@@ -13,7 +13,7 @@ SavedSession headOf(const SessionSetup& setup) {
             {},          {},           setup.equalised, setup.shaping,        setup.layout};
 }
 
-// The list begins before its events are known. Depths and parts matter to layouts that have them.
+// Chooses the columns before any event is known: depths and parts if the layout has them.
 OptionalColumns columnsFor(const SessionSetup& setup) {
     const ActuatorLayout& layout = setup.panner.layout();
     return {isAnyRough(setup.scene.materials), true, !isFlat(layout), hasParts(layout)};

@@ -35,7 +35,7 @@ public:
     /// Adds whole lines, after the pending ones.
     void append(std::string_view lines);
 
-    /// Flushes to disk; error() tells a failure. False if others have removed, replaced or cut the file.
+    /// Flushes to disk; a failure sets error(). False if others have removed, replaced or cut the file.
     bool sync();
 
     /// Empty, or one line: why lines are pending, or that maxWaitingBytes were exceeded; after that the file
@@ -70,7 +70,7 @@ public:
     void played(const PlayedEvent& played, int sampleRateHz) override;
     SinkState state() const override { return {.name = "session file", .isReady = true, .trouble = news()}; }
 
-    /// Empty, or one line: why a file cannot grow at present, or has stopped growing. Until the next message.
+    /// The latest message: empty, or one line why a file cannot grow at present or has stopped growing.
     std::string news() const;
 
     /// Adds everything up to now, session time `sessionNs`, and stops the journal.

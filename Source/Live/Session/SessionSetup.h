@@ -76,7 +76,7 @@ struct SessionSetup {
     LogUse log = LogUse::document;
     LayoutDescription layout{}; ///< of `panner`, for the log: name, labels, full scales; empty: not known
 
-    /// Whether events with fixtures are of a world of the caller's, as the scene has none.
+    /// Whether events that name fixtures come from a world of the caller, as the scene has no bodies.
     bool areEventsOfCaller() const noexcept { return scene.bodies.empty(); }
     RunSettings run() const noexcept { return {seed, stepsPerSecond, timing, location}; }
 };
@@ -97,7 +97,7 @@ struct SessionState {
     }
 };
 
-/// How the host calls render.
+/// Whether the host calls render() in real time, or offline as fast as it can.
 enum class RenderMode { realtime, offline };
 
 constexpr std::int64_t noMargin = std::numeric_limits<std::int64_t>::max();

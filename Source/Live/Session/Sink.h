@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Interface of outputs that a session feeds beside its audio device: a board, a file, messages, a display.
-// Each overrides the methods that it needs.
+// Interface of the outputs that a session feeds beside its audio device (a board, a file, messages, a
+// display), and the set of them. Each output overrides the methods that it needs.
 #pragma once
 #include "Core/Nonblocking.h"
 #include "Core/RenderControl.h"
@@ -104,7 +104,7 @@ public:
     void played(const PlayedEvent& event, int sampleRateHz) {
         each([&](Sink& sink) { sink.played(event, sampleRateHz); });
     }
-    /// Of all sinks that have something to display.
+    /// States of all sinks that have something to display.
     std::vector<SinkState> states() const {
         std::vector<SinkState> all;
         each([&](const Sink& sink) {
@@ -143,7 +143,7 @@ private:
     std::array<std::atomic<Sink*>, maxSinks> sinks_{};
 };
 
-/// While it exists, the sinks follow the device, which must outlive it. M.
+/// Makes the sinks follow the device, which must outlive this object, until its destruction. M.
 class Following {
 public:
     Following(SinkSet& sinks, OutputClock& device)

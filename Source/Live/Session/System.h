@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What sessions ask of the system: its rules for threads that drive devices and worlds, and for their
-// process; libraries at run time.
+// Functions of the operating system that sessions need: priority and processor time of threads, the process
+// id, and libraries that are loaded at run time.
 #pragma once
 
 namespace physvib {
@@ -13,15 +13,15 @@ void raiseThreadPriority(bool isAudio) noexcept;
 /// the render thread (R).
 double threadSeconds() noexcept;
 
-/// Whether the thread that creates a driver must make all its calls.
+/// Whether all calls of an audio driver must come from the thread that created it.
 bool areDriversBoundToTheirThread() noexcept;
 
-/// Number of the calling thread's process: another one in a forked child, where no other thread is left.
+/// Id of this process. It differs in a forked child, in which no other thread runs.
 int thisProcess() noexcept;
 
 // Loads libraries of the system at run time: a program starts without them, and runs where they are missing.
 
-/// System calls: opens the library of that name, and finds a function in it; or null. Any thread.
+/// Opens a library by name; finds a function in a library. Null if it does not exist. Any thread.
 void* openLibrary(const char* name);
 void* functionIn(void* library, const char* name);
 

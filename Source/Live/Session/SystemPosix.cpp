@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What sessions ask of POSIX systems: threads, pseudo-terminals, libraries.
+// Threads, pseudo-terminals and libraries on POSIX systems.
 #if !defined(_WIN32)
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/System.h"

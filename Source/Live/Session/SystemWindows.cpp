@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What sessions ask of Windows: threads, pseudo-terminals, libraries.
+// Threads, pseudo-terminals and libraries on Windows.
 #if defined(_WIN32)
 #include "Live/Session/BoardLink.h"
 #include "Live/Session/System.h"
 
-#include "Io/Disk/SystemWindows.h" // last: its macros are for nobody else
+#include "Io/Disk/SystemWindows.h" // last, because of its macros
 
 namespace physvib {
 

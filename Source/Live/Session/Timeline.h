@@ -26,13 +26,13 @@ public:
         return static_cast<double>(outputLatencyFrames()) / law_.sampleRateHz;
     }
 
-    /// What of it is for sinks, at most. Any thread but R.
+    /// Latency of sinks that the output latency covers. Any thread but R.
     double sinkSeconds() const {
         const std::lock_guard lock{mutex_};
         return law_.sinkSeconds;
     }
 
-    /// Of the renderer. Any thread but R.
+    /// Sample rate of the renderer. Any thread but R.
     int sampleRateHz() const {
         const std::lock_guard lock{mutex_};
         return law_.sampleRateHz;
@@ -56,7 +56,7 @@ public:
 
     /// Latency of events of the render call: the output latency, or less in low-latency mode. R, or the
     /// message thread (M) while no thread renders.
-    bool isDirectFromStart() const noexcept { return isBornDirect_; } ///< as inputLatencyFrames
+    bool isDirectFromStart() const noexcept { return isBornDirect_; } ///< Direct::fromStart; R or M
     std::int64_t inputLatencyFrames() const noexcept {
         return isBornDirect_ ? law_.limiterFrames : outputLatencyFrames();
     }
@@ -73,7 +73,7 @@ public:
     /// Session time of an event that the render call creates at a frame of the next block. R.
     std::int64_t nextInputNs(std::int64_t frame) const noexcept { return sessionNs(nextInputFrame(frame)); }
 
-    /// The same in the renderer's frames, and the frame that leaves the renderer then. R.
+    /// That time in the renderer's frames; and the renderer's frame that leaves it at `frame`. R.
     std::int64_t nextInputFrame(std::int64_t frame) const noexcept {
         return isBornDirect_ ? nextRenderedFrame(frame) : nextFrame(frame);
     }
@@ -160,7 +160,7 @@ private:
     mutable std::mutex mutex_; // locked last; guards the law for threads that hold no other mutex
     ClockLaw law_;
     bool isToldDirect_ = false, isBornDirect_ = false;
-    // output latency, and R's additions to the law's
+    // output latency, and what R has added to that of the law
     std::atomic<std::int64_t> outputLatencyFrames_{0}, grownFrames_{0};
     std::atomic<std::int64_t> sessionFrames_{0};
 };

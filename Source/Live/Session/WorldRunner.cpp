@@ -93,8 +93,8 @@ int WorldRunner::advance(const StepWatch& keepGoing) {
     return steps;
 }
 
-// When the block begins to which the world has not been stepped, if blocks go on as they do. Inputs to a
-// world that stands still wait as long as they would for a step.
+// Estimates the start of the block for which the next step is needed. A paused world handles its inputs as
+// often as it would step.
 std::int64_t WorldRunner::nextStepNs() const {
     const std::lock_guard lock{mutex_};
     const std::int64_t blockNs = time_.sessionNs(time_.law().blockFrames),
@@ -120,7 +120,7 @@ int WorldRunner::catchUp(std::int64_t nowNs, const StepWatch& keepGoing) {
     return steps;
 }
 
-// One step; none while the world is paused. Its time must be before `untilNs`.
+// Makes one step, or a stall up to `untilNs` if the world is paused. Its time must be before `untilNs`.
 void WorldRunner::moveWorld(std::int64_t untilNs) {
     if (isStill()) return world_.standStill(untilNs - world_.timeNs());
     const int slowness = this->slowness();

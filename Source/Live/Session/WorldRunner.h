@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Steps a session's physics world up to session time, and queues its events for the renderer.
+// The physics world of a session and its scheduled events, stepped up to session time for the renderer.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EventQueue.h"
@@ -58,10 +58,10 @@ public:
     /// Adds a valid input that acts at `sessionNs`, or in the next step if that is past.
     void addInput(std::int64_t sessionNs, Action action);
 
-    /// Where the script is at that time, and its rate (ScriptPace). In no log.
+    /// Sets the script's position at that time, and its rate (ScriptPace). Not logged.
     void pace(std::int64_t sessionNs, double scriptSeconds, double rate);
 
-    /// the current run, with inputs and stalls that have not been read
+    /// The current run, with the inputs and stalls that have not been read.
     const SceneRun& take() const noexcept { return take_; }
     std::size_t takeCount() const noexcept { return takeCount_; }
     /// Bodies in Box2D's world; inputs that are pending or have not been read.
@@ -144,12 +144,12 @@ public:
         slowness_.store(std::max(0, slowness), std::memory_order_relaxed);
     }
     int slowness() const noexcept { return slowness_.load(std::memory_order_relaxed); }
-    /// It is paused, and no single step is asked for. Any thread.
+    /// Whether the world is paused and no single step is requested. Any thread.
     bool isStill() const noexcept {
         return slowness() == 0 && stepsWanted_.load(std::memory_order_relaxed) == 0;
     }
 
-    /// One step of a paused world. Any thread, wait-free.
+    /// Requests one step of a paused world. Any thread, wait-free.
     void stepOnce() noexcept { stepsWanted_.fetch_add(1, std::memory_order_relaxed); }
 
     /// Time lost in stalls. Any thread.
@@ -167,7 +167,7 @@ public:
     /// are left out. Does not wait for a long step; then the poses are those before it. Any thread but R.
     std::int64_t readPoses(std::vector<BodyPose>& poses) const;
 
-    /// When the next step is due, by the blocks so far: steadyNs(). D.
+    /// Time on the steady clock at which the next step is due, estimated from the device's blocks. D.
     std::int64_t nextStepNs() const;
 
     /// Collisions lost in physics steps because buffers were full. Any thread, wait-free.
@@ -237,7 +237,7 @@ private:
     std::vector<CollisionEvent> made_; // events that did not fit the queue yet, from handed_ on
     std::size_t handed_ = 0;
     WaitingStrikes waiting_;
-    DevicePulse::Return returns_;       // after which nothing that waited is left
+    DevicePulse::Return returns_;       // the last return of the device that was handled
     std::vector<CollisionEvent> begun_; // scheduled events that have begun, for the log
 
     mutable std::mutex stateMutex_; // locked after all others; guards the following members

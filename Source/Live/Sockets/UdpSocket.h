@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-/// Address that a packet came from.
+/// Address of a packet's sender.
 struct UdpSender {
     alignas(8) std::array<std::byte, 128> address{}; ///< a sockaddr_storage
     std::size_t size = 0;
@@ -30,10 +30,10 @@ public:
     ~UdpSocket();
 
     /// Binds to that local address and port, or to the next port that is free; 0: any. The port is never
-    /// shared. Or one line.
+    /// shared. Returns the error in one line otherwise.
     static Result<UdpSocket> listening(const std::string& address, int port);
 
-    /// Connects to `HOST:PORT` or `[ADDRESS]:PORT`. Or one line.
+    /// Connects to `HOST:PORT` or `[ADDRESS]:PORT`, or returns the error in one line.
     static Result<UdpSocket> connected(const std::string& receiver);
 
     bool isOpen() const noexcept { return handle_ != none; }
