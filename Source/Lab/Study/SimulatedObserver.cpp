@@ -18,7 +18,7 @@ bool varies(const std::string& label, const char* part) {
     return ("-" + label + "-").find(std::string("-") + part + "-") != std::string::npos;
 }
 
-/// Means as printed; spreads, so that the printed tests follow (ObserverTest recomputes them).
+/// Means as the thesis prints them; spreads so that its printed tests follow (ObserverTest checks this).
 ObserverSettings fittedToTheThesis(ObserverSettings settings) {
     settings.placeBlur = 0.2073;
     settings.ringBlur = 0.1524;
@@ -188,7 +188,7 @@ private:
                                                         static_cast<double>(session.answers.size()))];
     }
 
-    /// Words that a table, a page and a spreadsheet must leave as they are; now and then none.
+    /// Answers with characters that CSV, HTML and spreadsheets must not change; sometimes empty.
     std::string described() {
         static constexpr std::array words{"weak, short", "like \"tapping\"", "=strong", "<rough> & deep",
                                           "\uac15\ud55c"};

@@ -276,8 +276,8 @@ bool isSame(const LevelSummary& s, const LevelTrial& t) {
 
 using Run = std::vector<const LevelTrial*>; // one participant's trials of a session, or of one staircase
 
-/// NaN: of fewer than two reversals; infinite, below or above 0: of half of the later ones, or of all trials,
-/// at an end of the levels, if it is known.
+/// NaN if there are fewer than two reversals; -infinity or infinity if half of the later reversals, or of all
+/// trials, are at the lower or upper end of the levels (if known).
 double staircaseThreshold(const Run& run) {
     std::vector<double> levels;
     for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
