@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the mapped columns once, then reduces every row to them.
+// Maps the columns of other programs' tables to ours, and finds participants who are in several tables.
 #include "Lab/Files/StudyTables.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Text/CleanText.h"
@@ -86,7 +86,7 @@ void takeOthersWords(CsvTable& table, const RowsLeftOut& leftOut) {
         }
 }
 
-/// A row that is there twice: of our own trials, and of others' where trial is named.
+/// Error if a trial has two rows: in our files, and in other programs' tables with a column of trials.
 std::string doubledRowFault(const CsvTable& table, bool isNamed) {
     const bool isOurs = trialHeadOf(table.comments).contains("protocol");
     std::vector<std::size_t> columns;
@@ -158,7 +158,7 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, Rows
                 isRated |= has; // of scales one is enough
             else if (holds(answerColumns, ours))
                 isAnswered &= has;
-            else if (ours != trialColumns::group) // nobody goes for want of one
+            else if (ours != trialColumns::group) // rows without a group are kept
                 isWhole &= has, isTrial |= ours != "participant";
         }
         if (isWhole && ((isRated && isAnswered) || !hasTime)) return false;
