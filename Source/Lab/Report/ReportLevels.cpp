@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report section on levels: thresholds with psychometric functions, adjusted levels, and magnitude estimates.
+// Report sections on levels (thresholds, adjustments, magnitudes), choices, ratings, and answers in words.
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
@@ -20,7 +20,7 @@ double guessOf(const ReportTrials& trials) {
     return adaptive != trials.sessions().end() ? adaptive->guessRate() : trials.guess;
 }
 
-/// Of tables that do not say how levels were chosen.
+/// Fits for tables that do not say how levels were chosen.
 void tellFits(ReportBuilder& report) {
     AnalysisJob fit = report.options();
     fit.model.guess = report.trials.guess;

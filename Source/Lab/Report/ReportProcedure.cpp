@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report sections on participants and procedure, for the methods section of a paper, from the study's files.
+// Report sections on participants, procedure and times, for the methods section of a paper.
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"

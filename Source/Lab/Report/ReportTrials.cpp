@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Combines trial files into one table and checks their first lines; reads the facts of people.
+// Combines trial files into one table, reads the facts of people, and finds unfinished sessions.
 #include "Lab/Report/ReportTrials.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
