@@ -106,8 +106,8 @@ std::string doubledRowFault(const CsvTable& table, bool isNamed) {
     return {};
 }
 
-/// Of others' rows that are alike, with a time to the thousandth, where the other cells tell rows apart:
-/// elsewhere two answers may be alike.
+/// Error if two rows of another program's table are equal, also in a time to the thousandth. Only if most
+/// rows differ in their other cells: otherwise equal answers are possible.
 std::string sameRowFault(const CsvTable& table) {
     if (!trialHeadOf(table.comments).empty()) return {};
     std::set<std::vector<std::string>> all, others;
