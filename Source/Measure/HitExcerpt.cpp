@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the strongest impact by comparing levels of short frames with the quietest part of the recording.
+// Finds impacts by levels of short frames against the quietest part; removes slow parts by running means.
 #include "Measure/HitExcerpt.h"
 #include "Core/Limits.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the strongest impact in a recording.
+// Prepares recordings: finds the strongest impact, checks the samples, removes the slow part.
 #pragma once
 #include "Core/Samples.h"
 #include "Io/Text/NumberText.h"
@@ -26,7 +26,7 @@ inline std::size_t samplesIn(double seconds, double rateHz) noexcept {
 /// The sum of their squares. Any thread.
 double energyOf(std::span<const double> samples);
 
-/// From the onset of the loudest impact to where it falls below the noise, the next impact, or one second;
+/// The excerpt from the onset of the loudest impact to the noise, the next impact, or one second;
 /// `samples` must not be empty. Message thread (M) only.
 HitExcerpt strongestHit(const std::vector<float>& samples, double rateHz);
 
@@ -82,8 +82,8 @@ inline std::string recordingFault(const std::vector<float>& x, double rateHz, do
     return bad == x.end() ? "" : notFinite(*bad, static_cast<std::size_t>(bad - x.begin()), rateHz);
 }
 
-/// What is below limits::slowestToneHz is unfelt, and only warms a coil. What was removed, in shares of full
-/// scale; 0: too little, and the samples are unchanged.
+/// The removed part below limits::slowestToneHz, which is imperceptible and only heats a coil, in shares of
+/// full scale; 0: too little, and the samples are unchanged.
 struct SlowPart {
     static constexpr double leastSeconds = 0.2; ///< a period of limits::slowestToneHz; shorter: no slow part
     static constexpr double leastMean = 0.01, leastRest = 0.1;

@@ -56,7 +56,7 @@ class HitFit {
 public:
     static constexpr std::size_t usualPartials = 6;
     /// `guess`: initial onset in `samples`; it moves by at most onsetReachSeconds per partial. `most`:
-    /// partials.
+    /// maximum number of partials.
     HitFit(std::vector<double> samples, std::size_t guess, double rateHz, std::size_t most = usualPartials);
     HitFit(const HitFit&) = delete; // the fits refer to the samples
     HitFit& operator=(const HitFit&) = delete;

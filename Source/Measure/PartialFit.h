@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Least-squares fit of a sum of decaying sinusoids (partials) to samples.
+// Levenberg-Marquardt least squares, and the fit of a sum of decaying sinusoids (partials) to samples.
 #pragma once
 #include "Core/Trigonometry.h"
 #include <array>

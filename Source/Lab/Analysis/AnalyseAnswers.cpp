@@ -142,8 +142,8 @@ Result<LevelAnswers> readColumns(const AnalysisJob& o, LevelAnswerColumns column
         o, [&](const std::vector<NamedText>& files) { return readLevelAnswers(files, columns); });
 }
 
-/// A row of a summary: mean, standard deviation and interval over participants. Of what is above 0, no
-/// interval goes below.
+/// A row of a summary: mean, standard deviation and interval over participants. A measure that is above 0 has
+/// no interval that reaches below.
 void summarise(ExportTable& summary, const std::string& condition, const std::string& measure,
                const std::vector<double>& values, bool isAboveZero = false) {
     if (values.empty()) return;
@@ -157,7 +157,7 @@ void summarise(ExportTable& summary, const std::string& condition, const std::st
 constexpr const char* summaryColumns =
     "condition,measure,participants,mean,standard_deviation,interval_least,interval_most";
 
-/// Four standard errors below what guessing gives.
+/// True if the share is four standard errors below the guess rate.
 bool isBelowGuess(const LevelCount& at, double guess) {
     const auto n = static_cast<double>(at.trials);
     return guess > 0.0 &&

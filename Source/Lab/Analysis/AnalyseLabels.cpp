@@ -81,7 +81,7 @@ void summarise(ExportTable& summary, const std::string& condition, const Confusi
                 onlyIf(transferred.n > 1, transferred.deviation));
 }
 
-/// Each participant in both tables; who lacks stimuli.
+/// Writes each participant to both tables; returns the names of those who lack stimuli.
 std::string exportPeople(const std::string& condition, const std::vector<ParticipantTransfer>& people,
                          std::size_t stimuli, bool isOfAll, ExportTable& counts, ExportTable& each) {
     std::string lacking;

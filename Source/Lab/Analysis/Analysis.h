@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The analyses of study trials: options, results, and how they read files and write tables.
+// Analyses of study trials: their list, options and results, and helpers that read files and write tables.
 #pragma once
 #include "Io/Disk/ReadFile.h"
 #include "Io/Provenance.h"
@@ -181,10 +181,10 @@ void analysePercentCounts(const StudyData<PercentCounts>& data, const Findings& 
 // Judgements and levels: forced choices, slider ratings, staircases, QUEST+, adjustments, magnitudes.
 void analyseChoices(const StudyData<ChoiceTrial>& data, const Findings& to);
 void analyseRatings(const RatingData& data, const Findings& to);
-/// Scores of points have an order and no distances, so their means have no interval: 0. Any thread.
+/// Sets the intervals of scales in points to 0, since their scores are ordinal. Any thread.
 std::vector<RatingSummary> withoutIntervalsOfPoints(std::vector<RatingSummary> summaries,
                                                     const AnalysisJob& job, const RatingData& data);
-/// Without the staircases and QUEST+ that did not come to their end, where the protocol is known.
+/// Reads levels without unfinished staircases and QUEST+ runs, if the protocol is known.
 Result<StudyData<LevelTrial>> readFinishedLevels(const AnalysisJob& job);
 void analyseLevels(const StudyData<LevelTrial>& data, const Findings& to);
 

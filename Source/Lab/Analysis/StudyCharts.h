@@ -56,14 +56,14 @@ std::vector<std::string> isolationCharts(std::span<const IsolationResult> result
 /// Axis labels of the fitted levels and answers.
 struct FitWords {
     std::string level = "level (dB)", answer = "correct";
-    /// What the level of one half is; `choice=left` of two has no right answer.
+    /// Name of the level at one half; a choice such as `choice=left` has no correct answer.
     const char* half(const PsychometricModel& model) const {
         return model.guess > 0.0                  ? "threshold"
                : answer.find('=') < answer.size() ? "point of subjective equality"
                                                   : "50 % point";
     }
-    /// What half of the range between a quarter and three quarters is: of forced choices a slope, as both lie
-    /// on one side of what they are compared with.
+    /// Name of half the distance from one quarter to three quarters. With a guess rate it is no JND, since
+    /// both levels lie on one side of the standard.
     static const char* slope(const PsychometricModel& model) {
         return model.guess > 0.0 ? "half interquartile range" : "JND";
     }
@@ -76,7 +76,7 @@ FitWords fitWords(std::span<const ColumnName> columns, const std::string& level 
 // SVG. Participants without a fit are omitted. Any thread (allocates).
 
 /// `told`: the threshold of the method that chose the levels, shown in place of those of the fits. Trials of
-/// who has no function are not shown unless nobody has one.
+/// participants without a fit are shown only if no participant has one.
 std::string psychometricChart(ChartFrame frame, const std::vector<LevelAnswer>& trials,
                               const PsychometricModel& model, const FitWords& words,
                               const LevelSummary* told = nullptr);

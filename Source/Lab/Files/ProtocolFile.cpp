@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes protocol files: version, levels and linked files. The fields follow the table in
-// ProtocolFields.h.
+// Reads and writes protocol files by the table in ProtocolFields.h, writes their JSON schema, and applies the
+// edits that make a protocol run as published.
 #include "Lab/Files/ProtocolFile.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/Embedded.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Study protocols as JSON files, the built-in protocols with their versions as published, and CSV files of
-// levels that protocols refer to.
+// Study protocols as JSON files; the built-in protocols, their deviations from the thesis and their versions
+// as published; and CSV files of levels that protocols refer to.
 #pragma once
 #include "Core/Limits.h"
 #include "Io/Provenance.h"
@@ -25,10 +25,10 @@ enum class ThesisEdit {
     noBreakBefore, ///< removes breaks before sessions
     noGroups,      ///< removes condition groups
     addToCalls,    ///< adds the words of `change` between addsFrom and addsTo
-    matchPeaks     ///< recordings by their peak, in place of their strength
+    matchPeaks     ///< matches recordings by their peak, not their strength over 0.25 s
 };
 
-/// What of a hit, pulse or phantom a deviation changes; a test plays all and looks for others.
+/// Property of a hit, pulse or phantom that a deviation changes; a test plays all and looks for others.
 enum class ThesisPart { none, amplitude, duration, frequency, decay, gains, limiter, guard };
 
 /// One deviation of one protocol.

@@ -103,7 +103,7 @@ std::size_t takeOwnPlaces(const StudyRows& rows, const OwnTargets& targets, Stud
 
 constexpr char betweenKinds = '\n'; // in no cell
 
-/// Until nameKinds().
+/// Temporary name of a condition and stimulus, until nameKinds().
 std::string kindOf(const std::string& condition, const std::string& stimulus) {
     return condition + betweenKinds + stimulus;
 }
@@ -425,7 +425,7 @@ Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files) {
         const bool isOwn = rows.optional(trialColumns::task).has_value();
         std::size_t taken = 0;
         rows.each(AnswerKind::choice, [&](const CsvRow& row) {
-            // Of adaptive levels the method makes the shares.
+            // With adaptive levels the method determines the shares, so they are no result.
             if (isOwn && !rows.named(row, "correct").empty() && !rows.named(row, "level_db").empty()) return;
             ++taken;
             conditionNamed(rows, all, rows.sessionOf(row))

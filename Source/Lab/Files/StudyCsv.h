@@ -55,7 +55,7 @@ struct NamedText {
 // For all readers: other columns are ignored. Training trials and trials of other tasks in files of `study
 // run` are omitted. The first error is `name:17: column x: expected what, found "cell"`. Any thread.
 
-/// Columns stimulus, response; optional condition, participant. Of trials without a response it warns.
+/// Columns stimulus, response; optional condition, participant. Warns of trials without a response.
 Result<StudyData<IdentificationTrial>> readIdentification(std::span<const NamedText> files);
 
 /// Columns target_column, target_row (1 to mostGridLines), x, y (0 to 1); optional condition.
@@ -76,7 +76,7 @@ Result<StudyData<ChoiceTrial>> readChoices(std::span<const NamedText> files);
 Result<RatingData> readRatings(std::span<const NamedText> files);
 
 /// Staircases, QUEST+ sessions, adjustments and magnitude estimations of a trial file. Of trainings only
-/// adjustments of a file that has no other ones. The result has one condition.
+/// adjustments are read, and only if the file has no other ones. The result has one condition.
 Result<StudyData<LevelTrial>> readLevels(std::span<const NamedText> files);
 
 /// Column names for a fit of answers to levels.

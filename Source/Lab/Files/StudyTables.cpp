@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the mapped columns once, then reduces every row to them.
+// Maps the columns of other programs' tables to ours, and finds participants who are in several tables.
 #include "Lab/Files/StudyTables.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Text/CleanText.h"
@@ -86,7 +86,7 @@ void takeOthersWords(CsvTable& table, const RowsLeftOut& leftOut) {
         }
 }
 
-/// A row that is there twice: of our own trials, and of others' where trial is named.
+/// Error if a trial has two rows: in our files, and in other programs' tables with a column of trials.
 std::string doubledRowFault(const CsvTable& table, bool isNamed) {
     const bool isOurs = trialHeadOf(table.comments).contains("protocol");
     std::vector<std::size_t> columns;
@@ -106,8 +106,8 @@ std::string doubledRowFault(const CsvTable& table, bool isNamed) {
     return {};
 }
 
-/// Of others' rows that are alike, with a time to the thousandth, where the other cells tell rows apart:
-/// elsewhere two answers may be alike.
+/// Error if two rows of another program's table are equal, also in a time to the thousandth. Only if most
+/// rows differ in their other cells: otherwise equal answers are possible.
 std::string sameRowFault(const CsvTable& table) {
     if (!trialHeadOf(table.comments).empty()) return {};
     std::set<std::vector<std::string>> all, others;
@@ -158,7 +158,7 @@ std::string takeColumns(CsvTable& table, std::span<const ColumnName> names, Rows
                 isRated |= has; // of scales one is enough
             else if (holds(answerColumns, ours))
                 isAnswered &= has;
-            else if (ours != trialColumns::group) // nobody goes for want of one
+            else if (ours != trialColumns::group) // rows without a group are kept
                 isWhole &= has, isTrial |= ours != "participant";
         }
         if (isWhole && ((isRated && isAnswered) || !hasTime)) return false;

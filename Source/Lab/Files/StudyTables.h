@@ -41,14 +41,14 @@ std::string unitFault(std::span<const ColumnName> names);
 /// Columns of answers, beside those of scales.
 inline constexpr std::string_view answerColumns[] = {"response", "choice", "correct", "value", "x", "y"};
 
-/// What of other programs' tables is not read.
+/// What is left out of other programs' tables.
 struct RowsLeftOut {
     std::size_t rows = 0; ///< instructions, fixations, trials without an answer
-    /// Of each of their participants: main trials among them, and trainings beside them.
+    /// Trials without an answer by participant: main trials, and trainings.
     std::map<std::string, std::array<std::size_t, 2>> unanswered;
-    std::set<std::string> columns; ///< that are not named
-    std::set<std::string> stimuli; ///< of the name of no answer: an answer of it is one
-    /// Other programs' words for none (null, NA), where a column has no codes; None may be a group.
+    std::set<std::string> columns; ///< columns without a mapping
+    std::set<std::string> stimuli; ///< named like a missing answer; such an answer counts
+    /// True for other programs' words for a missing value (null, NA) in a column without codes.
     bool isNoAnswer(std::string_view column, const std::string& cell) const;
     std::string stimuliWords() const; ///< on those; empty: there is none
 };
@@ -93,7 +93,7 @@ public:
         notLeft_ = std::erase_if(table_.rows, [&](const CsvRow& row) { return didNotLeave(table_, row); });
     }
 
-    /// What of the table is left out, a line each.
+    /// Appends a line for each kind of rows that are left out.
     void warn(std::vector<std::string>& warnings) const {
         if (leftOut_.rows > 0)
             warnings.push_back(table_.name + ": rows left out, with nothing in one of the named columns: " +
@@ -112,7 +112,7 @@ public:
         throw StudyFault{table_.name + ": expected a column " + std::string(column) + ", found none"};
     }
 
-    /// Of each main row, if the table has tasks, of this kind of answer (nullopt: of none). How many were.
+    /// Calls `take` for each row outside trainings with this kind of answer; returns the number of such rows.
     template <class Take>
     std::size_t each(std::optional<AnswerKind> answer, Take take) const {
         const auto phase = optional(trialColumns::phase), tasks = optional(trialColumns::task);
@@ -131,7 +131,7 @@ public:
         return table_.cell(row, column);
     }
 
-    // Columns are given by their place, or by a name that is required.
+    // Columns are given by index, or by a name that is required.
     const std::string& cell(const CsvRow& row, auto column) const { return row.cells[placeOf(column)]; }
 
     const std::string& text(const CsvRow& row, auto column) const {
@@ -153,7 +153,7 @@ public:
         if (!optional(trialColumns::task)) return; // in tables of other programs it may be a date
         for (const CsvRow& row : table_.rows) all[kindOf(row)].insert(named(row, "session"));
     }
-    /// Where several of these sessions have rows of a kind, each is a study of its own.
+    /// If several sessions have rows of one kind, their conditions are kept apart by session.
     void partBy(const Sessions& all) { sessions_ = all; }
 
     /// The row's session where there are several; else empty.

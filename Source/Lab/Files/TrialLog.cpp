@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes and reads the rows of trial files.
+// Writes and reads the rows of trial files, and the files of times beside them.
 #include "Lab/Files/TrialLog.h"
 #include "Io/Disk/AtomicFile.h"
 #include "Io/Disk/FileClash.h"

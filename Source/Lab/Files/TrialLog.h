@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// CSV file of one participant's trials: its columns and first line, and writing each row at once, so that an
-// interrupted study can resume.
+// Files of one participant: trials as CSV, each row written at once so that an interrupted study can resume,
+// and the times of starts, breaks and ends.
 #pragma once
 #include "Core/Limits.h"
 #include "Io/Disk/SystemFile.h"
@@ -128,8 +128,8 @@ constexpr std::string_view limiterDb = "limiter_db", masterDb = "master_db", noi
 inline constexpr std::array<std::string_view, 5> apparatus{limiterDb, masterDb, noiseDb, device, version};
 constexpr std::string_view noNoise = "off"; ///< cell of noise_db without noise
 
-/// What of the trial left, the last columns; older files have none. `left`: 1 if every part left as planned,
-/// 0 if one did not, empty if nothing is known. `again`: plays that did not leave and were repeated.
+/// Delivery of the trial, in the last columns; older files have none. `left`: 1 if every part left as
+/// planned, 0 if one did not, empty if nothing is known. `again`: plays that did not leave and were repeated.
 constexpr std::string_view left = "left", again = "again";
 inline constexpr std::array<std::string_view, 2> receipts{left, again};
 
@@ -155,10 +155,10 @@ using TrialHead = std::map<std::string, std::string>;
 /// Parses the first comment line that names this program; empty if there is none. Any thread.
 TrialHead trialHeadOf(const std::vector<std::string>& comments);
 
-// Tells which rows of a table are of trials that did not leave as planned, and so are evidence of nothing.
+// Finds rows of trials that were not delivered as planned; they are not analysed.
 
-/// By the column `left`. Of rows without it, by a part whose peak is 0 though a device was open and its call
-/// does not ask for silence. Any thread.
+/// True if the column `left` is 0, or without it if a part has a peak of 0 though a device was open and its
+/// call does not ask for silence. Any thread.
 inline bool didNotLeave(const CsvTable& table, const CsvRow& row) {
     if (const auto& left = table.cell(row, trialColumns::left); !left.empty()) return left == "0";
     const auto& device = table.cell(row, trialColumns::device);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes analysis.R: a line of its origin with a hash, the functions, one call; and the notebook.
+// Writes analysis.R (a line of its origin with a hash, the functions, one call), the notebook, BIDS tables.
 #include "Lab/Report/AnalysisScript.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/Embedded.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// analysis.R, which chooses and runs the tests of a study over participants: the only place of inference. It
-// reads the tables of a report; C++ only says which columns are rating scales.
+// analysis.R chooses and runs the statistical tests of a study; no other code tests hypotheses. It reads the
+// tables of a report. This file also exports trials as a BIDS dataset.
 #pragma once
 #include "Io/Result.h"
 #include "Io/Text/CsvTable.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the analyses of a report.
+// Writes the HTML of a report's page, and runs the analyses of its sections.
 #include "Lab/Report/ReportBuilder.h"
 #include "Io/Charts/ChartParts.h"
 #include "Io/Text/CleanText.h"

@@ -70,7 +70,7 @@ public:
     /// Number of participants in the rows, by the column participant; 1 without it.
     std::size_t people() const;
 
-    /// Of an analysis of all trials.
+    /// Options for an analysis of all trials.
     AnalysisJob options() const {
         AnalysisJob job;
         job.files = {trialsTable}, job.made = &tables_, job.protocol = trials.protocol;
@@ -86,7 +86,7 @@ public:
         page.table(table.text(), name, mostRows, isFolded);
     }
     const std::string& tableText(const std::string& name) const { return tables_.at(name); }
-    /// What a reader finds in the table of all trials.
+    /// Applies a reader of StudyCsv.h to the table of all trials.
     auto read(auto reader, const auto&... how) const {
         const NamedText file{tableText(trialsTable), trialsTable};
         return reader(std::span{&file, 1}, how...);
@@ -96,7 +96,7 @@ public:
     /// empty on success.
     AnalysisReport analysis(const std::string& kind, const AnalysisJob& options, const std::string& name);
 
-    /// What a reader says of the table of all trials, with the trial's participant, condition and stimulus in
+    /// A reader's message on the table of all trials, with the trial's participant, condition and stimulus in
     /// place of file and line.
     std::string said(const std::string& words) const;
     void tellFault(const std::string& error) { page.note("not analysed: " + said(error)); }
@@ -181,7 +181,7 @@ std::string protocolWords(const Protocol& protocol); ///< without conditions and
 std::string conditionWords(const ConditionPlan& condition);
 std::string sessionWords(const SessionPlan& session);
 
-/// What a score of that scale goes from and to, and the scale's sentence.
+/// Range of the scale's scores, and the scale's definition.
 std::string scoreWords(const SessionPlan& session, const std::string& scale);
 
 /// The full scale of each condition's layout, and whether it is calibrated: "phone1: 1 g, assumed".

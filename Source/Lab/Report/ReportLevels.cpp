@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report section on levels: thresholds with psychometric functions, adjusted levels, and magnitude estimates.
+// Report sections on levels (thresholds, adjustments, magnitudes), choices, ratings, and answers in words.
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
@@ -14,13 +14,13 @@
 namespace physvib {
 namespace {
 
-/// Two alternatives, unless the protocol has more.
+/// Guess rate of the protocol's adaptive session, else that of the report.
 double guessOf(const ReportTrials& trials) {
     const auto adaptive = std::ranges::find_if(trials.sessions(), &SessionPlan::adaptedAlternative);
     return adaptive != trials.sessions().end() ? adaptive->guessRate() : trials.guess;
 }
 
-/// Of tables that do not say how levels were chosen.
+/// Fits for tables that do not say how levels were chosen.
 void tellFits(ReportBuilder& report) {
     AnalysisJob fit = report.options();
     fit.model.guess = report.trials.guess;
@@ -29,7 +29,7 @@ void tellFits(ReportBuilder& report) {
     tellFunctions(report, data.value, fit, "psychometric.csv");
 }
 
-/// Where runs of right answers and the sizes of steps up and down balance (Levitt 1971; Kaernbach 1991).
+/// Percent correct to which the protocol's staircases converge (Levitt 1971; Kaernbach 1991).
 std::string converging(const ReportTrials& trials) {
     std::set<std::string> shares;
     for (const SessionPlan& session : trials.sessions())
@@ -110,7 +110,7 @@ void tellEndsOfRanges(ReportBuilder& report) {
     }
 }
 
-/// What all adjustments are compared with, where that has one name and one level.
+/// Level and name of the alternative that all adjustments are compared with, if they agree.
 std::optional<std::pair<double, std::string>> comparedLevel(const ReportTrials& trials) {
     std::set<std::pair<double, std::string>> all;
     for (const SessionPlan& plan : trials.sessions())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Report sections on participants and procedure, for the methods section of a paper, from the study's files.
+// Report sections on participants, procedure and times, for the methods section of a paper.
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"
 #include "Lab/Files/ProtocolFile.h"
@@ -18,7 +18,7 @@ struct Attended {
     std::vector<double> seconds;
 };
 
-/// Of other programs' tables: columns of answers, and nothing in them.
+/// True if a row of another program's table has columns of answers, but no answer.
 bool hasNoAnswer(const Cells& cell, const CsvRow& row) {
     return std::ranges::any_of(answerColumns, [&](auto c) { return cell.has(c); }) &&
            std::ranges::all_of(answerColumns, [&](auto c) { return cell(row, c).empty(); });
@@ -109,7 +109,7 @@ void tellCalls(ReportBuilder& report) {
     }
 }
 
-/// What is known of those whose trials count: a table of numbers.
+/// Table of age, sex, handedness and group of the participants who are not excluded.
 void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, Attended>>& attended) {
     const StudyFacts& facts = report.trials.facts;
     std::vector<double> ages;
@@ -147,7 +147,7 @@ void tellFacts(ReportBuilder& report, const std::vector<std::pair<std::string, A
             report.page.note("participant " + person.participant + " of the table of people: no trials");
 }
 
-/// The number chooses the orders: people who share one had the same.
+/// Notes participants with the same number, as they had the same orders.
 void tellSameNumbers(ReportPage& page, const std::vector<std::pair<std::string, Attended>>& people) {
     std::map<std::string, std::vector<std::string>> codes;
     for (const auto& [code, own] : people)
@@ -201,14 +201,15 @@ void tellParticipants(ReportBuilder& report) {
             for (const LevelSummary& one : summariseLevels(data.value.conditions.front().trials))
                 for (const auto& [who, why] : one.leftOut)
                     left.row(who, one.condition, "", "", "", why, "threshold");
-    // Without a protocol only others tell how many trials there were; adaptive sessions have no fixed number.
+    // Without a protocol the number of trials is inferred from others; adaptive sessions have no fixed
+    // number.
     const bool canCompare = !report.trials.protocol && !isAdaptive;
     const auto of = [&](const std::string& code, std::size_t trials, const auto& planned,
                         const std::string& why, const char* what) {
         if (trials > 0) left.row(code, "", "", trials, planned, why, what);
     };
     for (const auto& [code, own] : people) {
-        rows -= std::min(rows, own.unanswered); // told with whose they are
+        rows -= std::min(rows, own.unanswered); // listed with their participant
         if (facts.isExcluded(code)) {
             of(code, own.main + own.training, "", facts.person(code).excluded, "all trials");
             continue;

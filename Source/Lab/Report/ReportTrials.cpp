@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Combines trial files into one table and checks their first lines; reads the facts of people.
+// Combines trial files into one table, reads the facts of people, and finds unfinished sessions.
 #include "Lab/Report/ReportTrials.h"
 #include "Io/Text/CleanText.h"
 #include "Io/Text/NameList.h"
@@ -235,11 +235,11 @@ Result<std::vector<PersonFacts>> readPeople(std::string_view text, std::string_v
     return people;
 }
 
-// Counts the rows of every planned session, and plays adaptive ones again.
+// Counts the rows of every planned session, and replays adaptive ones.
 
 namespace {
 
-/// The answer of a row of a run, and which of several staircases it is of, from 0.
+/// The answer of a row of a run, and the index of its staircase.
 struct RunAnswer {
     bool isCorrect = false;
     std::size_t staircase = 0;
@@ -250,7 +250,7 @@ using RunKey = std::tuple<std::string, std::string, std::string>; // participant
 
 bool isUnfinished(const SessionPlan& plan, const Answers& answers, std::size_t planned,
                   std::string& cutShort) {
-    if (plan.untilCorrect > 0) { // the last so many are right
+    if (plan.untilCorrect > 0) { // ends after so many consecutive correct answers
         const auto wrong = std::ranges::find(answers.rbegin(), answers.rend(), false, &RunAnswer::isCorrect);
         if (wrong - answers.rbegin() >= plan.untilCorrect) return false;
     }
@@ -297,7 +297,7 @@ std::vector<UnfinishedRun> unfinishedRuns(const ReportTrials& trials) {
         runs[keyOf(row)].push_back(
             {cell(row, "correct") == "1", staircase.value_or(1) - 1, cell(row, trialColumns::ranOut) == "1"});
     }
-    std::map<RunKey, std::size_t> notLeft; // answered, though no evidence
+    std::map<RunKey, std::size_t> notLeft; // answered, but not delivered as planned
     for (const CsvRow& row : trials.notLeft) ++notLeft[keyOf(row)], isNumbered(row);
     const auto missingOf = [&](const RunKey& run, int most) { // 0: not known
         std::string words;

@@ -37,7 +37,7 @@ struct StudyFacts {
     std::string plan{};          ///< text of the plan (StudyReport.h); empty: none was given
     bool operator==(const StudyFacts&) const = default;
 
-    /// Nothing is known of who is not in the table. Any thread.
+    /// Facts of a participant; empty ones if the table has none. Any thread.
     const PersonFacts& person(std::string_view participant) const noexcept {
         static const PersonFacts none;
         const auto found = std::ranges::find(people, participant, &PersonFacts::participant);
@@ -92,7 +92,7 @@ Result<ReportTrials> readReportTrials(const std::vector<std::pair<std::string, s
                                       const std::optional<Protocol>& protocol,
                                       const CallCheck& callFault = {});
 
-/// Takes the rows of excluded people from `all` (`files` keeps them). A line if nobody remains. Any thread.
+/// Stores facts, and removes excluded people from `all`, not `files`. Error if nobody remains. Any thread.
 std::string takeFacts(ReportTrials& trials, StudyFacts facts);
 
 /// All rows but unanswered training touches; `parts` has the answers that there were. Any thread.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Composes a report from the sections that fit its trials; a plan is the report of simulated people.
+// Composes a report from the sections that fit its trials; writes plans from reports on simulated people.
 #include "Lab/Report/StudyReport.h"
 #include "Io/Disk/ContentHash.h"
 #include "Io/Disk/ReadFile.h"
@@ -331,7 +331,7 @@ std::string simulatedFile(const Protocol& protocol, int number) {
     return text;
 }
 
-/// As a table of people does that names two groups.
+/// Assigns people to two groups, as a table of people would.
 void takeTwoGroups(ReportTrials& trials, int participants) {
     StudyFacts facts;
     for (int number = 1; number <= std::min(participants, mostSimulated); ++number)

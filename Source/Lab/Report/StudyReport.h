@@ -54,14 +54,14 @@ struct PlannedStudy {
     std::string script; ///< analysis.R, as the report will have it; empty of one participant
 };
 
-/// The tests are those that the script runs of simulated participants. Message thread only.
+/// Lists the tests that the script runs on simulated participants. Message thread only.
 Result<PlannedStudy> plannedStudy(const Protocol& protocol, int participants, const ScriptRunner& script);
 
-/// What a plan says that a report compares.
+/// Contents of a plan that a report compares with the study.
 struct PlanFacts {
     std::string hash, participants;          ///< of the protocol; number
     std::vector<std::string> tests, grouped; ///< titles; by group
-    bool isListed = true;                    ///< R was there when it was planned
+    bool isListed = true;                    ///< R was available when the plan was written
 };
 
 /// Fails on a text that is no plan. Any thread (allocates).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Compensation of mechanical coupling by Tikhonov-regularised least squares over complex amplitudes.
+// Compensates coupling by Tikhonov-regularised least squares; reads its files; summarises isolation studies.
 // Steps: 1. Solve (C^H C + lambda) D = C^H. 2. Compute the strongest drive of D over all gains from 0 to 1.
 // 3. If it exceeds the limit, find the smallest lambda within it by bisection of log lambda.
 #include "Lab/Study/Coupling.h"

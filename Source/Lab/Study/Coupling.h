@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mechanical coupling between actuators: its measured matrix, drives that compensate it, and attenuation
-// measures (Eq. 3.1, 3.2).
+// Mechanical coupling between actuators: its measured matrix and file, drives that compensate it, and the
+// attenuation by damping layers (Eq. 3.1, 3.2).
 #pragma once
 #include "Core/Actuators/DriveMatrices.h"
 #include "Io/Result.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs conditions, their sessions and their trials in order; all random orders derive from the seed.
+// Runs conditions, sessions and trials in orders that derive from the seed; creates the jobs of a trial.
 #include "Lab/Study/Experiment.h"
 #include "Core/Units.h"
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// State machine for one participant's study: presents a trial, accepts its answer, and goes on to the next. A
-// user interface or a simulated observer drives it. Recorded answers can be replayed, so an interrupted study
-// resumes where it stopped.
+// One participant's study: orders of trials, adaptive levels, trials with their answers, and the experiment
+// that presents a trial, accepts its answer and goes on. A user interface or a simulated observer drives it.
+// Recorded answers can be replayed, so an interrupted study resumes.
 #pragma once
 #include "Lab/Study/Protocol.h"
 #include "Lab/Study/Stimulus.h"
@@ -72,7 +72,7 @@ public:
     }
 
     const std::vector<double>& reversals() const noexcept { return reversals_; }
-    /// "ended at 40 trials with 5 of 6 reversals"; else empty.
+    /// "ended at 40 trials with 5 of 6 reversals" if the trials ran out first; else empty.
     std::string cutShort() const {
         const int found = static_cast<int>(reversals_.size());
         return !isDone() || found >= plan_.reversals
@@ -125,7 +125,7 @@ public:
         return std::visit([](const auto& m) { return m.levelDb(); }, methods_[at_]);
     }
     bool isDone() const { return std::ranges::all_of(methods_, isOver); }
-    /// Of staircases that ended before their reversals; else empty.
+    /// Text on staircases that ended before their number of reversals; else empty.
     std::string cutShort() const {
         std::string words;
         for (std::size_t i = 0; i < methods_.size(); ++i)
@@ -138,10 +138,10 @@ public:
     void answer(bool isCorrect) {
         std::visit([=](auto& m) { m.answer(isCorrect); }, methods_[at_]);
     }
-    /// The next answer is of that staircase, from 0; of the last if there are not as many.
+    /// Selects the staircase, from 0, that the next answer belongs to; a larger index selects the last one.
     void choose(std::size_t staircase) noexcept { at_ = std::min(staircase, methods_.size() - 1); }
-    /// Chooses one that is not over, at random; its number from 1, or 0 if there is only one. Precondition:
-    /// !isDone().
+    /// Selects an unfinished staircase at random; returns its number from 1, or 0 if there is only one.
+    /// Precondition: !isDone().
     std::size_t draw(SeededRandom& random) {
         if (methods_.size() == 1) return 0;
         do at_ = random.below(methods_.size());
@@ -179,8 +179,8 @@ struct Trial {
     std::string stimulus;             ///< label; empty while exploring
     std::vector<std::string> parts;   ///< played separately: alternatives as their buttons, or objects
     std::vector<double> partLevelsDb; ///< levels of the alternatives
-    double roveDb = 0.0;              ///< of the variable that roves, if there is one; else 0
-    double levelDb = 0.0;             ///< of the alternative that is moved, or was matched before; else 0
+    double roveDb = 0.0;              ///< offset of the roving variable; 0 if there is none
+    double levelDb = 0.0;             ///< of the adapted, adjusted or matched alternative; else 0
     std::size_t staircase = 0;        ///< from 1, where several are mixed; else 0
     double restSeconds = 0.0;         ///< break before it
 };
@@ -204,7 +204,7 @@ struct Answer {
     std::optional<FieldPlace> place; ///< locate; explore with free touches
     std::vector<double> scores;      ///< rate: one per scale
     double value = 0.0;              ///< adjust: dB; estimate: leastEstimate to mostEstimate
-    bool ranOut = false;             ///< the session's time for an answer was over; there is no other
+    bool ranOut = false;             ///< the time for an answer was over; there is no answer
     int plays = 1;                   ///< number of plays
     double seconds = 0.0;            ///< from the first play to the answer
     std::vector<FeltLevel> felt{}; ///< felt level of each part in its last play; empty if no device was used
@@ -212,7 +212,7 @@ struct Answer {
     double limiterDb = 0.0;               ///< maximum gain reduction of the limiter
     std::optional<bool> left{}; ///< whether every part left as planned in its last play; none: not known, as
                                 ///< there was no device
-    int again = 0;              ///< plays that did not leave as planned, each felt again; not among `plays`
+    int again = 0; ///< plays that were not delivered as planned and were repeated; not among `plays`
     std::optional<double> exposure{};    ///< of the participant so far, A(8) in m/s^2; none: not measured
     std::vector<std::string> sessions{}; ///< interactive worlds: saved sessions of each scene run in order,
                                          ///< beside the trial file
@@ -265,8 +265,8 @@ public:
         ++parts_[part].plays;
         parts_[part].isOwed = false;
     }
-    /// The play of `part` that was counted last did not leave: it does not count, and the part is to be felt
-    /// again before an answer.
+    /// The last play of `part` was not delivered: it no longer counts, and the part must be played again
+    /// before an answer is accepted.
     void lost(std::size_t part) noexcept {
         Part& own = parts_[part];
         --own.plays;
@@ -276,7 +276,7 @@ public:
     }
     /// Adds time spent with `part`.
     void spent(std::size_t part, double seconds) noexcept { parts_[part].seconds += seconds; }
-    /// True if every part was played, none is to be felt again, and each had its minimum time.
+    /// True if every part was played, none must be repeated, and each had its minimum time.
     bool canAnswer() const noexcept {
         return std::ranges::all_of(parts_, [this](const Part& p) {
             return p.plays > 0 && !p.isOwed && p.seconds >= session_.leastSeconds;
@@ -314,15 +314,15 @@ public:
     /// Why the answer does not fit this trial, e.g. `expected a place, found none`; empty if it fits.
     std::string refusal(const Answer& answer) const;
 
-    /// Stores an answer that refusal() accepts, and advances to the next trial. Of a trial that did not leave
-    /// as planned or that ran out of time, the answer moves no level and counts for nothing but the order.
+    /// Stores an answer that refusal() accepts, and advances to the next trial. If the trial was not
+    /// delivered as planned or timed out, its answer changes no level.
     TrialRecord take(Answer answer);
 
     /// Replays a recorded trial with take() if it is the one that this experiment expects. Otherwise returns
     /// the difference and changes nothing.
     std::string redo(const TrialRecord& record);
 
-    /// True if the current exploration may end because enough was felt.
+    /// True if the current exploration may end: all stimuli, or enough places, were played.
     bool mayEnd() const { return trial_ && session().answer() == AnswerKind::wish && hasExplored(); }
     /// Starts the next session. Precondition: mayEnd().
     void endSession() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Confusion matrices: labels in a fixed order, counts in one array. Information transfer: from the non-empty
-// cells, since 0 log 0 is 0.
+// Confusion matrices with labels in a fixed order, information transfer from the non-empty cells, and the
+// search for the largest grid whose cells all reach the threshold.
 #include "Lab/Study/Identification.h"
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"

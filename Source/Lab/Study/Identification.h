@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Absolute identification (thesis 3.2, 4.1): the confusion matrix (how often each response was given to each
-// stimulus), the information that it transfers, and the stimuli that are confused least.
+// Absolute identification (thesis 3.2, 4.1): confusion matrix, information transfer, least confused stimuli;
+// and grids of phantoms, with their percent counts and perceptual resolution.
 #pragma once
 #include "Stimuli/Stimulus.h"
 #include <algorithm>
@@ -122,7 +122,7 @@ struct ParticipantTransfer {
 /// In the order of first trials; without participants one of an empty name. Any thread (allocates).
 std::vector<ParticipantTransfer> transferByParticipant(const std::vector<IdentificationTrial>& trials);
 
-/// Those of them who had all stimuli, so that means are of the same ones; everybody where fewer than two had.
+/// Keeps the participants who had all stimuli, so that means can be compared; all if fewer than two had.
 std::vector<ParticipantTransfer> comparable(std::vector<ParticipantTransfer> people, std::size_t stimuli);
 
 // Selects the stimuli that participants confused least, for use as tactile icons (thesis 3.2.3).

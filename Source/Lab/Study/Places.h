@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pointing responses: a normal distribution per target of a grid, the map of the most likely target at every
-// place (thesis 4.2, Eq. 4.4 and 4.5), and errors at targets anywhere.
+// place (thesis 4.2, Eq. 4.4 and 4.5), and pointing errors at targets anywhere.
 #pragma once
 #include "Lab/Study/Identification.h"
 #include <cstddef>

@@ -42,9 +42,9 @@ struct GridSet {
 struct StudyFactor {
     std::string name;
     std::vector<std::string> values;
-    std::vector<std::string> labels{}; ///< what answers and rows call the values; empty: as they are
-    std::string alternative{};         ///< the values are of this alternative alone; empty: of every part
-    std::string otherwise{};           ///< what all other parts have instead
+    std::vector<std::string> labels{}; ///< names of the values in answers and rows; empty: the values
+    std::string alternative{};         ///< the only alternative with these values; empty: all parts
+    std::string otherwise{};           ///< value of all other parts
     bool operator==(const StudyFactor&) const = default;
 };
 
@@ -52,7 +52,7 @@ struct StudyFactor {
 struct StudyVariable {
     std::string name; ///< with its unit, e.g. "decay_per_s"
     double at0Db = 1.0;
-    bool roves = false; ///< follows a trial's rove_db instead, which then moves nothing else
+    bool roves = false; ///< follows the trial's rove_db, which then changes nothing else
     bool operator==(const StudyVariable&) const = default;
     double at(double levelDb) const noexcept {
         return std::round(at0Db * std::pow(10.0, 0.05 * levelDb) * 1e6) * 1e-6; // short text, as of levels
@@ -157,7 +157,7 @@ struct SessionPlan {
     std::string question;         ///< text for the participant; empty: the default text of the task
     std::string instruction;      ///< text of the page before the session; empty: that of the task
     bool givesFeedback = false;   ///< tells after each answer whether it was correct
-    double intervalSeconds = 0.0; ///< all parts are played one after the other, so far apart; 0: one by one
+    double intervalSeconds = 0.0; ///< parts are played in sequence at this interval; 0: one by one
     Order order = Order::random;
     int repetitions = 1;
     int fewestTouches = 0;      ///< explore: minimum number of touches; 0: every stimulus once
@@ -169,13 +169,13 @@ struct SessionPlan {
     double breakSeconds = 0.0;
     std::vector<Alternative> alternatives; ///< choose, adjust
     bool bothOrders = false; ///< choose: each order of the two alternatives once, instead of a random order
-    std::vector<std::string> answers;     ///< choose: of one stimulus, in place of alternatives
-    std::vector<std::string> objects;     ///< rate: parts of every trial, in random order
-    std::vector<std::string> scales;      ///< rate; empty: a score of each object, side by side
-    std::string reference;                ///< of those an object that is also felt openly, before them
-    int points = 0;                       ///< rate: scores from 1 to so many; 0: from 0 to 100
-    bool isOnce = false;                  ///< rate, describe: on the condition as a whole, with nothing felt
-    bool comparesPairs = false;           ///< rate: the parts of a trial are two of the stimuli
+    std::vector<std::string> answers; ///< choose: of one stimulus, in place of alternatives
+    std::vector<std::string> objects; ///< rate: parts of every trial, in random order
+    std::vector<std::string> scales;  ///< rate; empty: a score of each object, side by side
+    std::string reference;            ///< rate: an object that is also presented by name, before the others
+    int points = 0;                   ///< rate: scores from 1 to so many; 0: from 0 to 100
+    bool isOnce = false;              ///< rate, describe: once per condition, without a stimulus
+    bool comparesPairs = false;       ///< rate: the parts of a trial are two of the stimuli
     std::vector<std::string> definitions; ///< description of each scale, shown beside it; may be empty
     std::vector<std::string> anchors;     ///< labels of the scale ends; empty: usualAnchors
     bool showsNumbers = false;            ///< rate: show the score as a number
@@ -183,11 +183,11 @@ struct SessionPlan {
     std::optional<StaircasePlan> staircase;
     std::optional<QuestMethod> quest;
     std::string correct;  ///< choose: the alternative that is right; empty: a staircase's, or none
-    int untilCorrect = 0; ///< ends after so many right answers in a row; 0: after all trials
+    int untilCorrect = 0; ///< ends after so many consecutive correct answers; 0: after all trials
     double roveDb = 0.0;  ///< all parts of a trial are raised or lowered together by up to this, at random
     std::string modulus;  ///< estimate: the stimulus that each trial begins with
-    double modulusNumber = 10.0; ///< and what it counts as
-    bool mayBeEmpty = false;     ///< describe: an answer without words is taken
+    double modulusNumber = 10.0; ///< number assigned to the modulus
+    bool mayBeEmpty = false;     ///< describe: an empty answer is accepted
     std::string levelsFrom;      ///< an earlier session whose adjusted levels apply here
     std::string levelsFile; ///< or a file with the levels of other participants (Lab/Files/ProtocolFile.h)
     bool operator==(const SessionPlan&) const = default;
@@ -244,7 +244,7 @@ std::string picturePath(const MaterialPictureFile& picture, const std::string& p
 /// All scales of a protocol, in the order of their first mention. Any thread (allocates).
 std::vector<std::string> scalesOf(const Protocol& protocol);
 
-/// Between the labels of two stimuli that are compared.
+/// Separates the labels of two stimuli that are compared.
 constexpr std::string_view betweenPair = " & ";
 
 /// A stimulus of a condition: its label and, for a CallSet, the values of its factors.
@@ -256,7 +256,7 @@ struct StimulusItem {
 /// All stimuli of a condition, in a fixed order. Any thread (allocates).
 std::vector<StimulusItem> stimuliOf(const ConditionPlan& condition);
 
-/// What the trials of a session are of: these stimuli, every two of them ("200 & 250"), or one without a
+/// Stimuli of a session's trials: those of the condition, every pair of them ("200 & 250"), or one without a
 /// label that stands for the whole condition. Any thread (allocates).
 std::vector<StimulusItem> itemsOf(const SessionPlan& session, const ConditionPlan& condition);
 
@@ -290,7 +290,7 @@ double stimulusCount(const ConditionPlan& condition) noexcept;
 // stand in every row of the trial file, where users copy them into a shell. So a call may only render and
 // read files below its folder. The options that write files are listed in Standalone/Calls/CallOptions.h.
 
-/// Of a call, including recordings; a row of the trial file holds the calls of all parts of a trial.
+/// Length limit of a call with its recordings. A row of the trial file holds the calls of all parts.
 constexpr std::size_t mostCallBytes = 2000;
 
 /// Letters (including non-ASCII), digits, and characters that a shell does not interpret.

@@ -138,7 +138,7 @@ std::string faultOfCounts(std::span<const LevelCount> counts) {
 
 constexpr double sameLikelihood = 0.01; // of its logarithm
 
-/// The likeliest lapse rate of a step at `level`: of answers on its sides.
+/// Maximum-likelihood lapse rate of a step at `level`, from the answers on both sides.
 double lapseBeside(std::span<const LevelCount> counts, const PsychometricModel& model, double level,
                    bool isRisenAt) {
     double lapses = 0.0, trials = 0.0;
@@ -151,8 +151,8 @@ double lapseBeside(std::span<const LevelCount> counts, const PsychometricModel& 
     return trials > 0.0 ? std::min(lapses / trials, model.mostLapses()) : 0.0;
 }
 
-/// The least and the most threshold that is as likely as that of `f`, with any width, if a step is as likely:
-/// then the answers tell no width, and `f` becomes the likeliest function half way between them.
+/// If a step is as likely as `f`: the lowest and highest threshold of such steps. Then the answers do not
+/// determine the width, and `f` becomes the likeliest function half way between these thresholds.
 std::optional<std::pair<double, double>> becomesStep(std::span<const LevelCount> counts,
                                                      const PsychometricModel& model, PsychometricFunction& f,
                                                      double likeliest) {
@@ -185,7 +185,7 @@ std::optional<std::pair<double, double>> becomesStep(std::span<const LevelCount>
     return std::pair{least, most};
 }
 
-/// What the levels and answers do not tell, though a likeliest function was found.
+/// Error if the levels and answers do not determine the function, though a maximum was found.
 std::string faultOfFit(std::span<const LevelCount> counts, const PsychometricFunction& f, double likeliest) {
     const double least = counts.front().level, most = counts.back().level, range = most - least;
     double trials = 0.0, level = 0.0, hits = 0.0, product = 0.0;

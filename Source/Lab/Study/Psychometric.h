@@ -36,7 +36,7 @@ struct PsychometricFunction {
 };
 
 constexpr double mostLapse = 0.1;   // maximum plausible lapse rate
-constexpr double mostOfBoth = 0.02; // of lapses at both ends: higher bounds take from the width
+constexpr double mostOfBoth = 0.02; // of equal lapse rates at both ends: a higher bound biases the width
 
 /// Model choices, made before the fit.
 struct PsychometricModel {
@@ -45,7 +45,7 @@ struct PsychometricModel {
     double lapseUpTo = mostLapse; ///< upper bound of the fitted lapse rate
     bool operator==(const PsychometricModel&) const = default;
 
-    /// Yes and no lapse equally often: lapses at one end alone would move the threshold. Any thread.
+    /// Yes/no answers (guess 0) have two equal lapse rates: one alone shifts the threshold. Any thread.
     PsychometricFunction with(double threshold, double width, double lapse) const noexcept {
         return {shape, threshold, width, guess > 0.0 ? guess : lapse, lapse};
     }
@@ -58,7 +58,7 @@ struct LevelCount {
     std::uint64_t hits = 0, trials = 0;
 };
 
-/// Trials of `trials` by rising levels; `of` a trial is its level and whether it was a hit. Any thread.
+/// Counts trials and hits by rising level; `of(trial)` returns the level and whether it is a hit. Any thread.
 template <class Trials, class Of>
 std::vector<LevelCount> countByLevel(const Trials& trials, Of of) {
     std::map<double, LevelCount> counts;
@@ -77,11 +77,11 @@ std::vector<LevelCount> countByLevel(const Trials& trials, Of of) {
 double logLikelihood(std::span<const LevelCount> counts, const PsychometricFunction& function);
 
 struct PsychometricFit {
-    std::string fault; ///< why it is no fit, in one line; if set, the rest is of no account
+    std::string fault; ///< error in one line; if set, the rest is invalid
     PsychometricFunction function{};
     double logLikelihood = 0.0;
-    bool hasJnd = false;               ///< else the width and the JND are of no account
-    std::pair<double, double> steps{}; ///< without it: the first and the last that fit as well
+    bool hasJnd = false;               ///< false: the width and the JND are invalid
+    std::pair<double, double> steps{}; ///< without a JND: lowest and highest threshold of equal fit
 };
 
 /// Maximum-likelihood fit; `counts` by rising levels. Errors: fewer than two levels, answers that do not rise
@@ -125,7 +125,7 @@ inline PowerLaw fitPowerLaw(std::span<const LevelAnswer> trials) {
     return {{}, exponent, std::exp(meanY - exponent * meanX), yy > 0.0 ? xy * xy / (xx * yy) : 1.0};
 }
 
-/// What a participant's trials are fitted by.
+/// A fit to one participant's trials.
 template <class Fit>
 struct OfParticipant {
     std::string participant;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Converts QUEST+ settings to a grid of psychometric functions, and to and from text.
+// Converts QUEST+ settings to a grid and to text; updates the posterior; pools the runs of participants.
 #include "Lab/Study/QuestMethod.h"
 #include "Io/Text/CsvText.h"
 #include "Io/Text/NumberText.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Adaptive method QUEST+ (Watson 2017): presents each trial at the level with the largest expected
-// information about the psychometric function. Its settings in a session with their text in each row of the
-// trial file; the run of one observer; the thresholds of several runs together.
+// information about the psychometric function. The file holds the run of one observer, the thresholds of
+// several runs together, and the settings of a session with their text in each row of the trial file.
 #pragma once
 #include "Lab/Study/Psychometric.h"
 #include <optional>

@@ -18,7 +18,7 @@ bool varies(const std::string& label, const char* part) {
     return ("-" + label + "-").find(std::string("-") + part + "-") != std::string::npos;
 }
 
-/// Means as printed; spreads, so that the printed tests follow (ObserverTest recomputes them).
+/// Means as the thesis prints them; spreads so that its printed tests follow (ObserverTest checks this).
 ObserverSettings fittedToTheThesis(ObserverSettings settings) {
     settings.placeBlur = 0.2073;
     settings.ringBlur = 0.1524;
@@ -149,7 +149,7 @@ private:
         return {x, felt(place.y, settings.offsetY)};
     }
 
-    /// Where the stimulus stands among all by its number, or in their list, from 0 to 1.
+    /// Rank of the stimulus among all, by its number or its position in the list, from 0 to 1.
     double standing() const {
         const auto items = stimuliOf(condition);
         const auto own = parseNumber<double>(trial.stimulus);
@@ -173,7 +173,7 @@ private:
                 }
             return trial.parts[strongest];
         }
-        if (!session.correct.empty()) // knows half of them, the later ones
+        if (!session.correct.empty()) // more often correct at higher ranks
             return random.chance(1.25 * standing() - 0.125)
                        ? session.correct
                        : session.alternatives[random.below(session.alternatives.size())].name;
@@ -181,14 +181,14 @@ private:
         return session.alternatives[1 + random.below(session.alternatives.size() - 1)].name;
     }
 
-    /// The later a stimulus stands, the later an answer.
+    /// The answer at the stimulus' rank in the list of answers, with noise.
     std::string answered() {
         const double share = standing() + 0.2 * random.normal();
         return session.answers[static_cast<std::size_t>(std::clamp(share, 0.0, 0.999) *
                                                         static_cast<double>(session.answers.size()))];
     }
 
-    /// Words that a table, a page and a spreadsheet must leave as they are; now and then none.
+    /// Answers with characters that CSV, HTML and spreadsheets must not change; sometimes empty.
     std::string described() {
         static constexpr std::array words{"weak, short", "like \"tapping\"", "=strong", "<rough> & deep",
                                           "\uac15\ud55c"};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks a stimulus job against its valid ranges.
+// Checks stimulus jobs against their valid ranges, converts them to calls, and creates their events.
 #include "Lab/Study/Stimulus.h"
 #include "Core/Actuators/Exposure.h"
 #include "Core/PortableMath.h"

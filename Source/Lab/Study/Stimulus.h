@@ -45,9 +45,9 @@ struct GridPlace {
     bool operator==(const GridPlace&) const = default;
 };
 
-/// What levelG is of: the peak; the peak of an undamped tone with the same root mean square over the length;
-/// that of an undamped tone of one second with the same energy; or that of an undamped tone whose root mean
-/// square is the stimulus' over the length behind the weighting W_h (see Exposure.h).
+/// The quantity that levelG specifies: the peak; the peak of an undamped tone with the same root mean square
+/// over the length; that of an undamped tone of one second with the same energy; or that of an undamped tone
+/// whose root mean square is the stimulus' over the length behind the weighting W_h (see Exposure.h).
 enum class LevelOf { peak, rms, energy, weighted };
 inline constexpr std::array<std::string_view, 4> levelOfNames{"peak", "rms", "energy", "weighted"};
 

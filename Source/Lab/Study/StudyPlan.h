@@ -21,7 +21,7 @@ struct PlannedStimulus {
     TrialJob job(const Protocol& protocol) const;
 };
 
-/// Of a part that can have more levels than these, one more is planned, spread evenly over them.
+/// If a part can have more levels than this, one more than this number is planned, evenly spaced.
 inline constexpr std::size_t mostPlannedLevels = 512;
 
 /// All planned stimuli in the order of conditions, each with its levels from the lowest. A level that is only

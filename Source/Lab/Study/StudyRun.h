@@ -45,7 +45,7 @@ public:
     /// the outputs that differ from those of the last start. A
     /// newer program version is allowed, since each row has its version. Any thread (allocates).
     std::string apparatusFault(const Apparatus& now) const;
-    /// The master level of the trials before, if it is another. Any thread.
+    /// Master level in dB of the earlier trials if it differs from the current one; else nullopt. Any thread.
     std::optional<double> otherLevelDb(const Apparatus& now) const {
         const auto& records = log_.records();
         const auto before = records.empty() ? std::nullopt : records.back().answer.apparatus;

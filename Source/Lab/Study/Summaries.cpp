@@ -53,7 +53,7 @@ double normalQuantile(double probability) {
 
 namespace {
 
-/// 95 % interval of a median by ranks, as the sign test has it; of fewer than six values all that they span.
+/// 95 % interval of a median by ranks (sign test); for fewer than six values, the range of the values.
 RankInterval rankInterval(std::vector<double> values) {
     if (values.empty()) return {};
     std::ranges::sort(values);
@@ -108,8 +108,8 @@ ChoiceShare shareOf(const std::string& alternative, std::uint64_t hits, std::uin
 
 using Alternatives = std::set<std::string, std::less<>>;
 
-/// What each trial offered. Parts may be no alternatives: then all that there are. Of stimuli that none has
-/// all answers of, nor each as many, nothing is known.
+/// The alternatives that each trial offered: its parts, else those of its stimulus, else all. `isKnown`
+/// becomes false if neither parts nor stimuli determine them.
 std::vector<Alternatives> offeredIn(const std::vector<ChoiceTrial>& trials, bool& isKnown) {
     Alternatives all, chosen;
     std::vector<Alternatives> each;
@@ -176,7 +176,7 @@ std::vector<double> participantMeans(const Chosen& trials, std::size_t scale) {
     return means;
 }
 
-/// Of several people, one person's trials tell no interval.
+/// `ofSeveral`: deviations and intervals are over participants, else over one participant's trials.
 RatingSummary summarise(const std::string& condition, const Chosen& trials, bool ofSeveral) {
     RatingSummary summary{condition, trials.size(), 0, {}, {}, {}, {}, {}, {}};
     for (std::size_t scale = 0; scale < trials.front()->scores.size(); ++scale) {
@@ -205,7 +205,7 @@ Groups<Trial> byCondition(const std::vector<Trial>& trials) {
     return conditions;
 }
 
-/// Of factors in names of conditions, those that are no condition of their own.
+/// Trials by the factors in the names of their conditions, without factors that are conditions themselves.
 template <class Trial>
 Groups<Trial> byFactor(const std::vector<Trial>& trials, const Groups<Trial>& conditions) {
     Groups<Trial> factors;
@@ -276,8 +276,8 @@ bool isSame(const LevelSummary& s, const LevelTrial& t) {
 
 using Run = std::vector<const LevelTrial*>; // one participant's trials of a session, or of one staircase
 
-/// NaN: of fewer than two reversals; infinite, below or above 0: of half of the later ones, or of all trials,
-/// at an end of the levels, if it is known.
+/// NaN if there are fewer than two reversals; -infinity or infinity if half of the later reversals, or of all
+/// trials, are at the lower or upper end of the levels (if known).
 double staircaseThreshold(const Run& run) {
     std::vector<double> levels;
     for (const LevelTrial* trial : run) levels.push_back(trial->levelDb);
@@ -343,7 +343,7 @@ double poolThresholds(const std::map<std::string, Run>& participants, std::vecto
     return deviation;
 }
 
-/// Why these are no threshold, staircase by staircase; empty: they are one.
+/// Why the trials give no threshold, staircase by staircase; empty if they do.
 std::string faultOf(LevelTrial::Kind kind, const Run& trials, double threshold,
                     const std::vector<double>& each) {
     if (kind == LevelTrial::Kind::staircase) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What trials say of each condition: means, shares and thresholds, with 95 % intervals. The unit is the
+// Summary statistics of each condition: means, shares and thresholds, with 95 % intervals. The unit is the
 // participant: trials of one are averaged first, so that many trials of a few do not look like many people.
 #pragma once
 #include <algorithm>
@@ -95,7 +95,7 @@ inline Proportion proportion(std::uint64_t hits, std::uint64_t trials) noexcept 
 /// One forced choice: alternative, condition and participant (which may be empty).
 struct ChoiceTrial {
     std::string participant, condition, choice;
-    std::string offered{}; ///< alternatives, "a|b|c"; empty: all that there are, unless stimuli tell them
+    std::string offered{}; ///< alternatives of the trial, "a|b|c"; empty: inferred from stimuli, else all
     std::string stimulus{};
 };
 
@@ -163,7 +163,7 @@ struct LevelSummary {
     std::size_t trials = 0, participants = 0;
     std::vector<std::pair<std::string, std::string>> leftOut{}; ///< participants without a threshold, and why
     double estimate = 0.0;  ///< staircase, QUEST+: mean threshold in dB; adjustment: mean dB; magnitude:
-                            ///< geometric mean; NaN: a threshold of nobody
+                            ///< geometric mean; NaN: no participant has a threshold
     double deviation = 0.0; ///< sample standard deviation over participants of thresholds, dB, or log10; of
                             ///< one participant over trials; 0 for one value
     double halfInterval = 0.0; ///< 95 % half-interval of thresholds and adjustments over participants; for

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The thesis beside PhysVib: where each part of it is, and what it prints beside what follows from it.
+// List of the thesis' parts with the call that reproduces each, a page on them, and the printed results.
 #pragma once
 #include "Lab/Report/ReportBuilder.h"
 #include <array>
@@ -16,9 +16,9 @@ struct ThesisRow {
     std::string at;       ///< "Fig. 3.4, Eq. 3.1"
     std::string what;     ///< in a few words
     std::string run;      ///< the call; empty: none
-    std::string needs;    ///< what no program has: hands, hardware, participants; empty: nothing
-    std::string misprint; ///< what the print cannot mean; empty: nothing
-    std::string differs;  ///< how PhysVib does it otherwise; empty: no difference is known
+    std::string needs;    ///< hands, hardware or participants that it needs; empty: none
+    std::string misprint; ///< a misprint in the thesis; empty: none
+    std::string differs;  ///< how PhysVib differs; empty: no difference is known
 };
 
 /// All rows, in the order of the thesis; those of studies tell the deviations that their version as published
@@ -40,13 +40,12 @@ struct ThesisPage {
                    const std::string& caption);
 };
 
-/// The table, drawings of chapter 3, and what is reckoned from printed numbers. M only.
+/// The table, drawings of chapter 3, and results computed from printed numbers. Message thread only.
 ThesisPage thesisPage();
 
 } // namespace physvib
 
-// What the thesis prints of its five studies, as printed, to stand beside what is reckoned from it. A note
-// says where the print cannot be.
+// Printed results of the thesis' five studies, for comparison. Comments mark misprints.
 
 namespace physvib::thesis {
 
