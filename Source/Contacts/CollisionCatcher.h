@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Collects the contacts that a physics engine reports during a step, in fixed arrays (thesis 5.1.3).
+// Collisions of a step (CollisionCatcher, thesis 5.1.3), and impulses that contacts transmit (ChainLoads).
 #pragma once
 #include "Contacts/ContactCounts.h"
 #include "Contacts/FixtureTable.h"
@@ -19,7 +19,7 @@ namespace physvib {
 /// the sum is already the whole impulse. Allocates when the world grows. World thread (M).
 class ChainLoads {
 public:
-    /// Where a contact is: of many it is never asked, so what an engine has is kept as it is.
+    /// Place of a contact, stored as the engine reports it, because most places are never read.
     struct Place {
         FaceTouch face;
         Vector3 world;
@@ -96,7 +96,7 @@ public:
         const bool isReceiver = index < passed_.size() && passed_[index].other != FixtureTable::none;
         return isReceiver ? passed_[index] : nothing;
     }
-    /// The same of a receiver.
+    /// The same of a slot in receivers().
     const Passed& received(std::int32_t receiver) const noexcept {
         return passed_[static_cast<std::size_t>(receiver)];
     }
@@ -130,7 +130,7 @@ private:
     std::vector<Contact> contacts_;
     std::vector<Passed> passed_; // by slot
     std::vector<std::int32_t> receivers_, ended_;
-    std::uint32_t step_ = 1; // a number for each
+    std::uint32_t step_ = 1; // the step's number, never 0
 };
 
 /// Updates the contact graph and records the collisions of each step (`Collision`). A collision needs parts
@@ -144,7 +144,7 @@ public:
     /// world with more is noise to the touch.
     static constexpr std::size_t maxDirectCollisions = 1024;
     static constexpr std::size_t maxDistantCollisions = 4096;
-    /// So many have memory before the first step; with more, lists grow, and then stay so long.
+    /// Memory is reserved for this many before the first step; lists that have grown keep theirs.
     static constexpr std::size_t expectedCollisions = 24;
 
     CollisionCatcher(const FixtureTable& table, ContactGraph& graph);

@@ -53,7 +53,7 @@ struct ContactCounts {
                                                                  ///< field
     double thresholdMetresPerSecond = 0.0; ///< effective value: at least 1.5 g dt of the last step
     bool hasSources = false;               ///< a body is a haptic source now
-    bool mayBePushed = false;              ///< one of these, by what strikes it
+    bool mayBePushed = false;              ///< one of them is movable
 
     std::uint64_t steps = 0;         ///< steps begun
     std::uint64_t zeroSteps = 0;     ///< of these: 0 s long
@@ -118,8 +118,8 @@ struct OutputFacts {
 
 /// The most likely reason why nothing, or not everything, is felt, as one sentence with names of physvib.h.
 /// `since`: of the time since the last explanation; if nothing has happened since, the sentence is about
-/// `ever`, and says so. `output`: what plays the events; null: unknown. It is in C, see inNames(). Any
-/// thread.
+/// `ever`, and says so. `output`: what plays the events; null: unknown. Its names are those of C,
+/// see inNames(). Any thread.
 std::string explain(const ContactCounts& since, const ContactCounts& ever,
                     const OutputFacts* output = nullptr);
 /// The same of one period. Any thread.

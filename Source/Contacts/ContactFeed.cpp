@@ -23,10 +23,10 @@ SpaceMotion inSpace(const BodyMotion& motion) noexcept {
     return {motion.metresPerSecond, {0.0F, 0.0F, motion.radiansPerSecond}};
 }
 
-// False of NaN.
+// False for NaN.
 bool isWithin(double value, double least, double most) noexcept { return value >= least && value <= most; }
 
-// False of NaN. Engines round.
+// False for NaN. The tolerance is for engines that round.
 bool isUnit(Vector3 v) noexcept { return std::abs(v.length() - 1.0F) < 0.01F; }
 
 const ImpactSettings& onsetAlone(const ImpactSettings& settings) {
@@ -35,7 +35,7 @@ const ImpactSettings& onsetAlone(const ImpactSettings& settings) {
     return settings;
 }
 
-// Of the contact's own numbers; the bodies are looked up elsewhere.
+// Checks the contact's own numbers; the next function looks up its bodies.
 std::string_view faultOf(const FedContact& contact) noexcept {
     constexpr double most = 1.0e12;
     if (contact.a == contact.b) return "bodies: expected two";

@@ -102,7 +102,7 @@ public:
     /// Any thread but while it is stepped.
     const ImpactSettings& settings() const noexcept;
 
-    /// Adds a body, or changes it. Returns what is wrong with it; empty: it is set. So do the next.
+    /// Adds a body, or changes it. Returns the error, or empty: it is set. So do the next functions.
     std::string_view set(std::int32_t id, const FedBody& body, const HapticFixture& values);
 
     /// The mass of a body as it is now, kg; its inertia changes by as much.
@@ -141,21 +141,21 @@ public:
     std::string_view begin(const FedContact& contact);
     /// The impulse of this step of a pair that goes on touching: how impacts pass through it.
     std::string_view push(const FedContact& contact);
-    std::string_view end(std::int32_t a, std::int32_t b); ///< A pair has parted.
+    std::string_view end(std::int32_t a, std::int32_t b); ///< The pair no longer touches.
 
     std::string_view endStep(); ///< All contacts of the step were reported.
 
-    std::int64_t timeNs() const noexcept; ///< After the steps done.
+    std::int64_t timeNs() const noexcept; ///< World time after the last step.
     /// No event before it is still to come.
     std::int64_t settledNs() const noexcept;
-    /// Those before settledNs(), in time order, to the end of `events`.
+    /// Appends the events before settledNs(), in time order.
     void take(std::vector<CollisionEvent>& events);
-    void flush(std::vector<CollisionEvent>& events); ///< All of them.
+    void flush(std::vector<CollisionEvent>& events); ///< Appends all events.
     /// Impacts lost because more came in a step than there is room for.
     std::uint64_t drops() const noexcept;
     /// Impacts left out by ImpactSettings::hitsPerStep.
     std::uint64_t overBudget() const noexcept;
-    /// Grains left out, their power being in the others.
+    /// Grains left out so far by thinning; the others carry their power.
     std::uint64_t thinned() const noexcept;
     /// What became of all contacts so far; see explain().
     ContactCounts counts() const noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Projected Gauss-Seidel solver for the impulses at a few contact points of two bodies.
+// Projected Gauss-Seidel solvers: of the contact points of two bodies, and of all contact points of a step.
 #include "Contacts/ReportedContacts.h"
 #include <algorithm>
 #include <array>
@@ -63,7 +63,7 @@ double wantedOf(const MeetingPoint& point) noexcept {
     return point.isNew && point.approach > 0.0 ? (1.0 + point.restitution) * point.approach : point.approach;
 }
 
-// False: it does not settle, or neither body is movable.
+// False if it does not converge, or neither body is movable.
 bool settle(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, std::span<MeetingPoint> points,
             bool isDragged) {
     Problem problem{};
@@ -199,8 +199,8 @@ void MomentumImpulses::strike(std::size_t point) {
         if (body != none) bodies_[static_cast<std::size_t>(body)].from = 1;
 }
 
-// Where bodies are that something strikes, what they stand on, and what that stands on. First where it
-// strikes: without friction, the floor has pushed a ball that a wall lifts.
+// Adds friction for struck bodies, what they stand on, and what that stands on. Struck points are solved
+// first: else the floor would seem to push a ball that a wall lifts by friction.
 void MomentumImpulses::solveFriction(const ReportedBodies& bodies) {
     const auto from = [&](std::int32_t body) {
         return body == none ? 0 : bodies_[static_cast<std::size_t>(body)].from;
@@ -224,7 +224,7 @@ void MomentumImpulses::solveFriction(const ReportedBodies& bodies) {
     sweep();
 }
 
-// The bounds stay: friction and the impulse that bounds it would drive each other for ever.
+// The bounds stay fixed: friction and the impulse that bounds it would increase each other without end.
 void MomentumImpulses::addFriction(const ReportedBodies& bodies, std::size_t point) {
     Vector3 left;
     for (const Vector3 axis : {Vector3{1.0F}, Vector3{0.0F, 1.0F}, Vector3{0.0F, 0.0F, 1.0F}}) {
@@ -292,8 +292,8 @@ void MomentumImpulses::sweep() {
     }
 }
 
-// The same of what the plane has alone, side by side in memory. What is immovable is a last body that nothing
-// moves.
+// The same for points in the plane, with less data, side by side in memory. The last body stands for all that
+// are immovable.
 void MomentumImpulses::sweepInPlane() {
     arrange();
     planeBodies_.clear();

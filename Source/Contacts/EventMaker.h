@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Converts impacts of haptic sources to collision events: amplitude, voice and place.
+// From impacts to events (EventMaker), in order of time (EventSorter), with a learned level (FullScale).
 #pragma once
 #include "Contacts/ContactCounts.h"
 #include "Contacts/FixtureTable.h"
@@ -79,7 +79,7 @@ private:
     // A ring in order of arrival; its size is a power of two, one more than the mask
     std::size_t first_ = 0, count_ = 0, places_ = 0, mask_ = 0;
     std::size_t old_ = 0;         // those up to the last release; no later one is before
-    std::int64_t releasedNs_ = 0; // those before
+    std::int64_t releasedNs_ = 0; // events before it have been released
     std::int64_t leastNewNs_ = std::numeric_limits<std::int64_t>::max();
     std::vector<CollisionEvent> held_;
     std::vector<Waiting> waiting_; // of each held one
@@ -111,7 +111,7 @@ public:
             return addModesOf(impact);
         sound(modes_[0], impact, amplitudeOf(impact));
     }
-    /// Whose impacts the next ones are.
+    /// Sets the source and the partner of the next impacts.
     void meet(std::int32_t camera, std::int32_t other) {
         if (camera != camera_) setSource(camera);
         if (!isMuted_ && (!hasMet_ || other != other_)) setPartner(other);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points on faces as an engine has them after its solver, and how they move along both surfaces, four
-// at a time where there are vectors.
+// Contact points on faces after the engine's solver, and how they move along both surfaces: four points at a
+// time on processors with vectors of floats.
 #pragma once
 #include "Contacts/Vectors.h"
 #include <cstddef>
@@ -18,18 +18,18 @@ struct FacePoint {
     Mover face, other;
     float faceRadiansPerSecond = 0.0F, otherRadiansPerSecond = 0.0F;
     float normalNewtonSeconds = 0.0F;
-    bool isTurned = false;    ///< the face is b's
-    bool isDiscRough = false; ///< the other is a disc, and rough: its path is computed
+    bool isTurned = false;    ///< the face belongs to b
+    bool isDiscRough = false; ///< the other is a rough disc, so its path is computed
     std::int32_t a = 0, b = 0;
     std::uint64_t pairsKey = 0;
     std::uint64_t feature = 0; ///< identifies the point within the pair; the same from step to step
 };
-// rows are turned into columns of floats
+// FaceColumns reads a point as floats, so their places are fixed
 static_assert(sizeof(FaceTouch) == 16 * sizeof(float) && offsetof(FacePoint, face) == sizeof(FaceTouch));
 static_assert(offsetof(FacePoint, isTurned) == 27 * sizeof(float));
 
-/// One number of faceLanes points, and four numbers of each, from the floats at `group`: of four points where
-/// there are vectors of four, else of one, which is less code.
+/// FaceColumns reads four floats (group `group`) of faceLanes consecutive points, and gives each of the four
+/// as one value per point (lane). Processors without vectors of floats have one lane.
 #if defined(__SSE2__) || defined(__ARM_NEON)
 constexpr std::size_t faceLanes = 4;
 using Four = float __attribute__((vector_size(faceLanes * sizeof(float))));
@@ -67,13 +67,13 @@ struct FaceColumns {
 };
 #endif
 
-/// How faceLanes points move.
+/// How faceLanes points move: all members have one value per point.
 struct FaceRuns {
     struct Vector {
         Four x, y;
     };
     Vector point;           ///< between the surfaces, m, world
-    Vector metresPerSecond; ///< of the contact point itself
+    Vector metresPerSecond; ///< m/s, of the contact point itself
     Four metres, speed;     ///< along the face: the place in its frame, m, and m/s
     Four slip;              ///< of one surface relative to the other, m/s
 
@@ -117,7 +117,7 @@ private:
     }
     [[gnu::always_inline]] static Vector scaled(Four s, Vector v) noexcept { return {s * v.x, s * v.y}; }
     [[gnu::always_inline]] static Four dot(Vector a, Vector b) noexcept { return a.x * b.x + a.y * b.y; }
-    /// Of a spin and an arm.
+    /// Velocity that a spin (rad/s) gives the end of an arm (m).
     [[gnu::always_inline]] static Vector crossed(Four spin, Vector arm) noexcept {
         return {-spin * arm.y, spin * arm.x};
     }

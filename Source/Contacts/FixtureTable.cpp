@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Maps the engine's fixture numbers to slots, and keeps the values of each slot.
+// Implementation of the table of fixtures, and of the graph of contacts.
 #include "Contacts/FixtureTable.h"
 #include <algorithm>
 

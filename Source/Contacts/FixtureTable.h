@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Table of the fixtures that have haptic values or touch something. It is kept beside the physics world, so
-// the engine's user data remain the user's.
+// Fixtures that have haptic values or touch something, their touching pairs, and the graph of contacts. They
+// are kept beside the physics world, so the engine's user data remain the user's.
 #pragma once
 #include "Contacts/HapticFixture.h"
 #include "Contacts/Impact.h"
@@ -61,13 +61,13 @@ public:
     const KnownFixture& operator[](std::int32_t slot) const noexcept {
         return known_[static_cast<std::size_t>(slot)];
     }
-    /// What decides per contact and step which reports matter, a bit each.
+    /// Bits that decide in each step whether reports of a contact matter.
     enum Trait : std::uint8_t { source = 1, rough = 2 };
     unsigned traits(std::int32_t slot) const noexcept { return traits_[static_cast<std::size_t>(slot)]; }
     bool isCamera(std::int32_t slot) const noexcept { return (traits(slot) & source) != 0; }
     /// By the engine's number, without a search; false is certain.
     bool mayBeCamera(std::uint64_t fixture) const noexcept { return cameraNames_.mayHave(fixture); }
-    /// Another number whenever the values of a fixture have changed.
+    /// A number that changes whenever the values of a fixture change.
     std::uint32_t revision() const noexcept { return revision_; }
     bool isRough(std::int32_t slot) const noexcept { return (traits(slot) & rough) != 0; }
 
@@ -217,7 +217,7 @@ public:
     /// Capacity in pairs without an allocation.
     explicit ContactGraph(std::size_t edges = 128);
 
-    /// The numbers of its edges' pairs, and of pairs that others know.
+    /// Numbers of the pairs that touch, and of others that were registered.
     TouchingPairs& pairs() noexcept { return pairs_; }
 
     /// Nodes are passing by default. A change costs a rebuild.

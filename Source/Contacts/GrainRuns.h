@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Grains that points have passed, and the events of them, several at a time where the processor has vectors.
+// Grains that contact points have passed, and their events: several at a time on processors with vectors.
 #pragma once
 #include "Contacts/Vectors.h"
 #include "Core/CollisionEvent.h"
@@ -44,7 +44,7 @@ struct GrainRuns {
     alignas(32) All<std::int64_t> timeNs;
     alignas(32) All<double> newtonSeconds, amplitude, x, y, z; ///< x, y, z: of the field
     alignas(32) All<std::int64_t> kinds;                       ///< as ContactKind; a hit: too slow to be felt
-    /// Of all places. x, y.
+    /// Bounds of all places in the field, m: x, y.
     std::array<double, 2> least, most;
 
     void compute() noexcept;

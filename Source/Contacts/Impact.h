@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What contact stages pass on: the step, its collisions, ended contacts, impacts of haptic sources.
+// What contact stages read (BodyReader) and pass on: the step, collisions, ended contacts, and impacts.
 #pragma once
 #include "Contacts/Vectors.h"
 #include "Core/CollisionEvent.h"
@@ -63,7 +63,7 @@ struct StepSpan {
         return std::max(earliestNs, startNs + roundedNs(sinceStart));
     }
 
-    /// The same of a fraction that is not below 0; inline, because it runs for each grain.
+    /// The same for a fraction that is not below 0; inline, because it runs for each grain.
     std::int64_t laterNs(double fraction) const noexcept {
         const double sinceStart = fraction * static_cast<double>(endNs - startNs);
         const auto whole = static_cast<std::int64_t>(sinceStart);

@@ -166,7 +166,7 @@ private:
         return static_cast<std::size_t>((name * 0x9E3779B97F4A7C15U) >> (64 - bits)); // hash as in IntegerMap
     }
 
-    std::array<std::uint16_t, std::size_t{1} << bits> counts_{}; // of a hundred million names
+    std::array<std::uint16_t, std::size_t{1} << bits> counts_{}; // enough for a hundred million numbers
 };
 
 } // namespace physvib

@@ -11,14 +11,14 @@
 #endif
 
 namespace physvib {
-/// FaceRuns as they are used.
+/// The results of FaceRuns, as arrays with one number per point.
 struct FaceMoves {
     std::array<double, faceLanes> metres, speed, slip;
     std::array<float, faceLanes> x, y, xMetresPerSecond, yMetresPerSecond;
 };
 } // namespace physvib
 
-// The same once for any processor, and once for what nearly all have.
+// GrainLanes.inc is compiled once for any processor, and once for those with AVX2.
 namespace physvib::plain {
 #define LANES 1
 #include "Contacts/GrainLanes.inc"
@@ -70,7 +70,7 @@ void LastingContacts::collect(const StepSpan& span, std::vector<Impact>& impacts
             passEach(passage, span, gap, list);
 }
 
-// What pass() does, where runs do not do.
+// Does what pass() does, one grain after the other, for passages that a run cannot have.
 void LastingContacts::passEach(const Passage& passage, const StepSpan& span, const GrainGap* gap,
                                Taker taker) {
     Told& told = *passage.told;
@@ -126,7 +126,7 @@ SurfacePath around(const FacePoint& of) noexcept {
 
 void LastingContacts::computeFaces(LastingContacts& all) {
     const std::size_t count = std::exchange(all.faceCount_, 0);
-    // of rows behind the last nothing is used
+    // the results of rows behind the last are not used
     FaceMoves moves;
     for (std::size_t first = 0; first < count; first += faceLanes) {
         PHYSVIB_LANES(moveFaces)(&all.faces_[first], moves);
@@ -166,7 +166,7 @@ inline void LastingContacts::follow(Told& told, std::int32_t surface, double sec
                                   1};
 }
 
-// What the step's points pass, thinned together.
+// Finds what each point passes in the step, and thins the grains of all points together.
 void LastingContacts::follow(double seconds) {
     passageCount_ = 0;
     compute();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rolling and sliding contacts: each grain of a rough surface that a point passes is a small impact.
+// Rolling and sliding: an impact per grain that a point passes (LastingContacts); StepMemory matches steps.
 #pragma once
 #include "Contacts/FacePoints.h"
 #include "Contacts/FixtureTable.h"
@@ -22,8 +22,8 @@ namespace physvib {
 /// contacts in nearly the same order in each step, so a record is first looked for behind the last one found;
 /// the lookup by key is needed only for records that are new, gone or reordered. A `Record` has
 /// `std::uint64_t key`, not 0, `std::int32_t now`, and `std::int32_t before`, its index in the last step, or
-/// `none`. Records are used again as they are: who gets a new one sets the rest. Allocates when a step has
-/// more records than any before. One thread at a time.
+/// `none`. Records are reused without being cleared: the caller sets the other members of a new one.
+/// Allocates when a step has more records than any before. One thread at a time.
 template <class Record>
 class StepMemory {
 public:
@@ -67,7 +67,7 @@ public:
         for (Record& record : now()) change(record);
     }
 
-    /// So many records in a step take no memory.
+    /// Reserves memory, so that steps with that many records do not allocate.
     void reserve(std::size_t records) {
         before_.resize(std::max(before_.size(), records + 1));
         now_.resize(std::max(now_.size(), records + 1));
@@ -202,7 +202,7 @@ public:
         compute();
         if (isNear(point.onA) && isNear(point.onB)) add(point, pairsKey);
     }
-    /// The same of a point on a face: how it moves is computed later, of four at a time. To be filled in.
+    /// The same for a point on a face: the caller fills it in; its motion is computed later, four at once.
     [[gnu::always_inline]] FacePoint& touchFace() {
         if (faceCount_ == faces_.size()) [[unlikely]]
             compute();
@@ -211,7 +211,7 @@ public:
     }
     bool hasHeard() const noexcept { return points_.count() > 0 || faceCount_ > 0; }
 
-    /// For steps with usual numbers of points. Call it where a surface is rough.
+    /// Reserves memory for the usual number of points; call it when a surface becomes rough.
     void reserve() {
         points_.reserve(24);
         pairs_.reserve(24);
@@ -220,7 +220,7 @@ public:
 
     /// Appends the impacts of the grains that the step's points passed, by point.
     void collect(const StepSpan& span, std::vector<Impact>& impacts);
-    /// The same for `maker.add(impact)`, or runs of them, without a list between.
+    /// The same, passed to `maker.add(impact)`, or to `maker` as runs of grains, without a list in between.
     template <class Maker>
     void collectFor(const StepSpan& span, Maker& maker) {
         follow(span.seconds());
@@ -252,10 +252,10 @@ private:
         std::uint64_t key = 0;
         std::int32_t now = 0, before = 0, pair = 0; // as StepMemory needs them; index into pairs_
         LastingPoint point;
-        std::int32_t inGapOf = 0; // the surface of the following; none: it is not known
+        std::int32_t inGapOf = 0; // slot of the surface of what follows; none: unknown
         std::uint32_t revision = 0;
         std::int64_t every = 0;
-        GrainGap gap; // between those of the surface's grains, as the table then had them, in which it is
+        GrainGap gap; // between two grains of that surface, as of that revision: where the point is
     };
     struct Pair {
         std::uint64_t key = 0;
@@ -271,7 +271,7 @@ private:
     static bool isNear(const SurfacePath& path) noexcept { // false for NaN
         return std::abs(path.metres) < farMetres && std::abs(path.metresPerSecond) < farMetres;
     }
-    /// Of one surface that one point passes in this step. moveAlong() computes it by vectors.
+    /// How one point passes along one surface in this step; moveAlong() computes it.
     struct Passage {
         // At first the paths of the last step (not a number: it is not known) and of this one
         double startMetres, metresPerSecond, metresPerSecond2, endMetres;
@@ -321,7 +321,7 @@ private:
     }
     struct Runs : GrainRuns {
         std::int32_t surface = FixtureTable::none, camera = FixtureTable::none;
-        bool isUsed = false; // the maker takes runs of these
+        bool isUsed = false; // the maker accepts these as runs
         Grains grains{0, Texture{1.0}};
     };
     template <class Maker>
@@ -346,7 +346,7 @@ private:
     void (*computeFaces_)(LastingContacts&) = nullptr;
     StepMemory<Told> points_;
     StepMemory<Pair> pairs_;
-    std::vector<Passage> passages_; // so many of them, then what is of no use
+    std::vector<Passage> passages_; // the first passageCount_ are in use
     std::size_t passageCount_ = 0;
     std::uint64_t thinned_ = 0;
 };
@@ -392,7 +392,7 @@ inline void LastingContacts::pass(const Passage& passage, const StepSpan& span, 
     if (stays(passage, runs.seconds, gap)) return;
     const auto passOneByOne = [&] {
         flush(runs, maker);
-        runs.surface = FixtureTable::none; // the maker may come to have another
+        runs.surface = FixtureTable::none; // the maker's source or partner may change
         passEach(passage, span, gap,
                  {[](void* to, const Impact& impact) { static_cast<Maker*>(to)->add(impact); }, &maker});
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stores the bodies that a caller reports, and computes approach speed and effective mass of two at a point.
+// Bodies that a caller reports, their approach speed and effective mass at a point, and reported slides.
 #include "Contacts/ReportedContacts.h"
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of touching pairs: a pair is added when it is first reported, and removed when it ends.
+// Pairs in contact, from their first report to their end: what is new is a collision, the rest is load.
 #include "Contacts/ReportedContacts.h"
 #include <algorithm>
 #include <cmath>
@@ -142,7 +142,7 @@ bool ReportedContacts::isHeldUp(std::int32_t struck, std::int32_t ground) {
            events_.catcher().wasStruck(slotOf(struck));
 }
 
-// Without what the pair has passed on in the step before.
+// Subtracts the impulse that the pair transmitted in the step before.
 FedContact ReportedContacts::beyondLoad(Pair& pair, FedContact contact) {
     if (!contact.impulseNewtonSeconds || contact.isSoft) return contact;
     const double load = std::min(pair.lastLoad, std::max(0.0, *contact.impulseNewtonSeconds));
@@ -331,7 +331,7 @@ FedContact ReportedContacts::withMomentum(const Waiting& each) const {
     return contact;
 }
 
-// Of a soft contact, as the engine's own impulse shows.
+// The friction of a soft contact per N s along the normal, from the engine's own impulse; else 0.
 Vector3 ReportedContacts::dragOf(const FedContact& of) const {
     const double along = of.impulseNewtonSeconds.value_or(0.0);
     if (!of.isSoft || !(along > 0.0)) return {};
@@ -359,7 +359,7 @@ ReportedContacts::Push ReportedContacts::pushed(const Waiting& each) const {
     return {goesOn ? pushed * speed / taken : pushed, pushed + owed * mass};
 }
 
-// Of contacts that are not soft: the impulse of the impact is that of the new points.
+// For contacts that are not soft: the impact's impulse is that of the new points.
 void ReportedContacts::strikeByMomentum() {
     meeting_.clear();
     for (const Waiting* each : together_) {
@@ -371,7 +371,7 @@ void ReportedContacts::strikeByMomentum() {
     strikeTogether();
 }
 
-// Where a point is new, that is the impact, and points that rock on press.
+// If the pair has a new point, that is the impact, and old points that were struck are load.
 void ReportedContacts::judgeKicks(Pair& pair) {
     bool isAnyNew = false;
     const auto next = [this](std::int32_t at) { return waiting_[static_cast<std::size_t>(at)].next; };
@@ -427,7 +427,7 @@ void ReportedContacts::settle(Pair& pair) {
     strikeTogether();
 }
 
-// Below 0: all of them part.
+// The fastest approach of new points, m/s; below 0 if all of them part.
 double ReportedContacts::fastestOfNew() const {
     double fastest = -std::numeric_limits<double>::infinity();
     for (const Waiting* each : together_)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The implementation of ContactFeed: reported bodies and touching pairs, and what they give to the stages
-// that make events.
+// The implementation of ContactFeed (ReportedContacts) and its parts: reported bodies, points of pairs,
+// solvers for impulses that the engine does not report, and slides.
 #pragma once
 #include "Contacts/ContactEvents.h"
 #include "Contacts/ContactFeed.h"
@@ -82,7 +82,7 @@ public:
     void endStep() noexcept { isAnyAfter_ = false, ++age_; }
     const FedBody& told(std::int32_t id) const { return at(idOf(id)).told; }
     bool has(std::int32_t id) const noexcept { return slots_.find(idOf(id)) != IntegerMap::none; }
-    /// True of one that nothing moves, as ground does.
+    /// True if the body is immovable and at rest, as ground is.
     bool stands(std::int32_t id) const;
 
     /// The largest mass of a movable body, kg (m_max of Eq. 5.7).
@@ -113,11 +113,11 @@ public:
     /// body is movable.
     double effectiveMassKg(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal,
                            Vector3 drag = {}) const;
-    /// As much of a drag (friction on B for each N s along the normal) as holds the point across it.
+    /// The part of a drag (friction on B per N s along the normal) that suffices to stop the point across it.
     Vector3 held(std::int32_t a, std::int32_t b, Vector3 point, Vector3 normal, Vector3 drag) const;
 
     BodyFacts facts(std::uint64_t body) const override;
-    // The part in the plane: release timing alone asks for motions, and feeds do not have it.
+    // Only the part in the plane: release timing alone asks for motions, and feeds do not support it.
     BodyMotion motion(std::uint64_t body) const override {
         const SpaceMotion& motion = at(body).motion;
         return {inPlane(motion.metresPerSecond), motion.radiansPerSecond.z};
@@ -179,8 +179,8 @@ public:
     std::size_t add(const ReportedBodies& bodies, std::int32_t a, std::int32_t b, Vector3 point,
                     Vector3 normal);
     void solve();
-    void strike(std::size_t point); ///< Something new happens to its bodies.
-    /// After solve() and strike(): at most 1.5 times what each impulse along a normal is then.
+    void strike(std::size_t point); ///< Its bodies have an impact there.
+    /// Call after solve() and strike(). Friction is at most 1.5 times the impulse along the normal.
     void solveFriction(const ReportedBodies& bodies);
     double newtonSeconds(std::size_t point) const { return rows_[point].newtonSeconds; }
     Vector3 friction(std::size_t point) const; ///< N s on B
@@ -220,7 +220,7 @@ private:
     Row& addRow(const ReportedBodies& bodies, const Point& of, Vector3 way);
     void addFriction(const ReportedBodies& bodies, std::size_t point);
     bool isInPlane(const Row& row) const;
-    double found(const Row& row) const; // of its change
+    double found(const Row& row) const; // the part of row.change that is explained so far, m/s
     void push(const Row& row, double newtonSeconds);
     void arrange();
     void sweep();
@@ -271,8 +271,8 @@ private:
     IntegerMap trackOf_;
 };
 
-/// Its arguments are valid: ContactFeed has checked that bodies are known, that contacts have no errors, and
-/// that the call is allowed now. M only.
+/// Pairs in contact: decides for each report whether it is a collision or a load. Arguments are valid,
+/// because ContactFeed has checked them, and that the call is allowed now. M only.
 class ReportedContacts {
 public:
     explicit ReportedContacts(const ImpactSettings& settings);
@@ -305,7 +305,7 @@ private:
     };
     struct Waiting {
         FedContact contact;
-        bool isNew, isKick; // struck; it is no new point
+        bool isNew, isKick; // isKick: an old point was struck
         std::int32_t next;
         std::int32_t momentum; // its number there, or none
     };
@@ -314,7 +314,7 @@ private:
     }
     void strikeByMomentum();
     FedContact withMomentum(const Waiting& each) const;
-    using Push = std::pair<double, double>; // N s of a step; the most that its impact can have had
+    using Push = std::pair<double, double>; // N s of a step; upper bound of its impact, N s
     static constexpr Push anyPush{0.0, HUGE_VAL};
     Push pushed(const Waiting& each) const;
     Vector3 dragOf(const FedContact& contact) const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Vectors in the single precision that physics engines compute with, bodies' motions, and what turns them.
+// Vectors of floats, as physics engines have them; motions and frames of bodies; points on faces; inertia.
 #pragma once
 #include <array>
 #include <cmath>
@@ -81,7 +81,7 @@ struct Frame {
 struct FaceTouch {
     Frame face, other;
     Vector2 normal, onFace; ///< in the face's frame: out of it, and a point on it
-    Vector2 corner;         ///< in the other's
+    Vector2 corner;         ///< in the other body's frame
     float faceRadius = 0.0F, otherRadius = 0.0F;
 
     /// The point between the surfaces, world.
@@ -103,7 +103,7 @@ struct BodyMotion {
 struct InverseInertia {
     double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, xz = 0.0, yz = 0.0;
 
-    /// The same about every axis, as of a ball.
+    /// The same value about every axis, as a ball has it.
     static InverseInertia ofBall(double perKgSquareMetre) noexcept {
         return {perKgSquareMetre, perKgSquareMetre, perKgSquareMetre, 0.0, 0.0, 0.0};
     }
@@ -125,9 +125,9 @@ struct InverseInertia {
                (product(one.y, other.z) + product(one.z, other.y)) * yz;
     }
 
-    /// Numbers that some body has: 0 or more about every axis, also about those between x, y and z. A matrix
-    /// that turns about one or two axes only (singular) is valid; false of NaN. Else an impulse could push a
-    /// body towards what struck it.
+    /// True if the matrix is positive semi-definite, as that of every body is; false for NaN. With another
+    /// matrix an impulse could push a body towards what struck it. A singular one, of a body that turns about
+    /// one or two axes only, is valid.
     bool isValid() const noexcept {
         constexpr double most = 1.0e18;
         for (const double about : {xx, yy, zz})

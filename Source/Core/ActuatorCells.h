@@ -10,12 +10,12 @@
 
 namespace physvib {
 
-/// The way from a to b. Any thread, as all arithmetic of places.
+/// The vector from a to b. Any thread, as all arithmetic of places.
 inline ActuatorPlace vectorFrom(const ActuatorPlace& a, const ActuatorPlace& b) noexcept {
     return {b.xMetres - a.xMetres, b.yMetres - a.yMetres, b.zMetres - a.zMetres};
 }
 
-/// a, and b so many times.
+/// a + times b.
 inline ActuatorPlace sumOf(const ActuatorPlace& a, const ActuatorPlace& b, double times) noexcept {
     return {a.xMetres + times * b.xMetres, a.yMetres + times * b.yMetres, a.zMetres + times * b.zMetres};
 }
@@ -34,8 +34,8 @@ inline ActuatorPlace directionOf(const ActuatorPlace& vector) noexcept {
     return sumOf({}, vector, 1.0 / std::sqrt(scalarProduct(vector, vector)));
 }
 
-/// Sorts numbers of actuators by insertion, the smallest key first: a layout has at most 64 actuators, and a
-/// sort of the standard library is a hundredth of the page in a browser. Any thread.
+/// Sorts numbers of actuators by insertion, the smallest key first: a layout has at most 64 actuators, and
+/// std::sort would enlarge the browser's page by a hundredth. Any thread.
 template <class Key>
 void sortActuators(std::uint8_t* begin, std::uint8_t* end, const Key& key) noexcept {
     for (std::uint8_t* next = begin; next < end; ++next) {

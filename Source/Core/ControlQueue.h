@@ -23,7 +23,7 @@ public:
         std::for_each_n(places_.begin(), made_, [](Place* place) { delete place; });
     }
 
-    /// Makes so many places, at most `Most`. The sender's, but not in the render role. False: no memory.
+    /// Makes `count` places, at most `Most`. The sender's, if it does not render. False: no memory.
     bool reserve(std::size_t count) noexcept {
         for (; made_ < std::min(count, Most); ++made_)
             if ((places_[made_] = new (std::nothrow) Place) == nullptr) return false;

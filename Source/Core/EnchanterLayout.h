@@ -26,7 +26,7 @@ struct ActuatorLayout {
     std::array<ActuatorPlace, limits::maxEnchanters> places{}; ///< the first `count` are used
 };
 
-/** The names that they had first. */ using EnchanterPlace = ActuatorPlace;
+/** The earlier name, kept for old code. */ using EnchanterPlace = ActuatorPlace;
 using EnchanterLayout = ActuatorLayout; ///< Likewise.
 
 /// True if all actuators have the same z, so that x and y alone decide. Any thread.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stages between a collision and the rendered event: the rendering method of the thesis, then the mapping of
-// frequencies into the actuators' band, then the level.
+// Stages between a collision and the rendered event: the thesis' rendering method, the mapping of frequencies
+// into the actuators' band, the level, and events that compensate the mean of hits.
 #pragma once
 #include "Core/Actuators/ActuatorEqualiser.h"
 #include "Core/Actuators/GuardLaw.h"
@@ -236,8 +236,8 @@ inline bool isMeanOff(const CollisionEvent& e) noexcept {
            std::abs(2e-9 * e.frequencyHz * static_cast<double>(e.durationNs) - 1.0) < 1e-6;
 }
 
-/// Half a sine over the length of a hit (a decay: until a tenth, at most 0.1 s) that takes its mean away:
-/// slower than what is felt of the hit, which stays as it is. Amplitude 0: its mean is less than a tenth of
+/// The event that compensates the mean of a hit: half a sine over the hit's length (of a decay: until a tenth
+/// is left, at most 0.1 s), too slow to be felt. Its amplitude is 0 if the hit's mean is less than a tenth of
 /// what the guard lets pass. Any thread.
 inline CollisionEvent meanOff(CollisionEvent hit) noexcept {
     constexpr double longest = 0.5 / limits::slowestToneHz;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names as numbers, which events carry: of sounds, and of parts of a body.
+// Numbers that stand in events for names: of sounds, and of parts of a body.
 #pragma once
 #include "Core/Limits.h"
 #include <cstdint>

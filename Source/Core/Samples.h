@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What samples are like: their peak, and where a tone can be cut.
+// The peak of samples, and where a tone can be cut without a step.
 #pragma once
 #include <algorithm>
 #include <cmath>

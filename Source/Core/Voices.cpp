@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a tone that moves begins: its phase, its decay and its end in whole numbers.
+// Starts a moving tone: computes its phase, decay and end as integers.
 #include "Core/Voices.h"
 #include "Core/Modes/ModeIncrements.h"
 #include <algorithm>

@@ -138,7 +138,7 @@ void CollisionFinder::look(const b2Contact& contact, const b2Manifold& before) {
         meet(contact, fresh, begun != nullptr && begun->contact == &contact ? begun : nullptr);
 }
 
-// `begun`: it began just now, and is known as it is.
+// `begun`: the contact's entry if it began just now; else null.
 void CollisionFinder::meet(const b2Contact& contact, unsigned fresh, Known* begun) {
     if (!contact.IsEnabled() || !events_.catcher().hasSources()) return;
     b2WorldManifold manifold;
@@ -245,7 +245,7 @@ public:
                      onB = centreB() - second_.GetShape()->m_radius * normal_;
         return 0.5F * (onA + onB);
     }
-    /// A point on a face, to be computed when it is asked for.
+    /// Fills in a point on a face, whose place is computed when it is asked for.
     void note(int i, FaceTouch& touch) const noexcept {
         touch.face = frameOf(first_);
         touch.other = frameOf(second_);
@@ -255,7 +255,7 @@ public:
         touch.faceRadius = first_.GetShape()->m_radius;
         touch.otherRadius = second_.GetShape()->m_radius;
     }
-    /// The impulse on B, N s, of all points but `without` (a bit each).
+    /// The impulse on B, N s, of all points except those in the mask `without`.
     [[gnu::always_inline]] Vector2 push(const b2ContactImpulse& impulse, unsigned without) const noexcept {
         static_assert(b2_maxManifoldPoints == 2);
         const b2Vec2 out = normal(), tangent = b2Cross(out, 1.0F);

@@ -127,7 +127,7 @@ private:
 
     std::vector<Entry> entries_;
     IntegerMap indices_; // small, to stay in the first-level cache
-    NameSketch names_;   // of most contacts it tells that they have none
+    NameSketch names_;   // tells of most contacts that they have no new point
 };
 
 /// Converts Box2D's contact callbacks to the reports that CollisionCatcher needs. World thread (M).
@@ -150,7 +150,7 @@ public:
     /// In BeginContact. `isFollowed`: what comes next is the same contact's PreSolve, and nothing between.
     void begin(const b2Contact& contact, bool isFollowed);
     void end(const b2Contact& contact); ///< in EndContact
-    /// After the game's own listener
+    /// To be called after the game's own listener.
     void onPreSolve(const b2Contact& contact, const b2Manifold& before) {
         if (!fresh_.areOld(contact, before)) [[unlikely]]
             look(contact, before);

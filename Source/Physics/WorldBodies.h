@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Implements BodyReader for a b2World.
+// Implements BodyReader for a b2World, and records where its bodies are at the beginning of a step.
 #pragma once
 #include "Contacts/Impact.h"
 #include "Contacts/IndexMaps.h"
@@ -83,7 +83,7 @@ public:
     /// Allocates if the world has grown.
     void beginStep(const b2World& world, double stepSeconds) {
         lastStepSeconds_ = std::exchange(stepSeconds_, stepSeconds);
-        // no more than these; the last place takes what follows of them
+        // one more place than bodies: the last has no key
         sweeps_.resize(static_cast<std::size_t>(world.GetBodyCount()) + 1);
         Sweep* next = sweeps_.data();
         float largestKg = 0.0F;
@@ -107,10 +107,10 @@ public:
         index();
     }
 
-    /// Another number whenever beginStep() has found other bodies, or in another order.
+    /// Changes whenever beginStep() has found other bodies, or another order.
     std::uint64_t census() const noexcept { return census_; }
 
-    /// Steps of so many bodies, and a few more, take no memory.
+    /// Reserves memory, so that steps with that many bodies and a few more do not allocate.
     void makeRoom(std::size_t bodies) {
         sweeps_.reserve(bodies + bodies / 4 + 3);
         indices_ = IntegerMap{sweeps_.capacity()};
@@ -187,7 +187,7 @@ public:
         isOfStep_ = isCertain_ = false;
         present_ = {one, other};
     }
-    /// The same right after BodySweeps::beginStep(), which has seen whether the list is another one.
+    /// The same right after BodySweeps::beginStep(), which has noticed whether the list has changed.
     void beginStep() noexcept {
         invalidate();
         isOfStep_ = true;

@@ -178,8 +178,8 @@ public:
         isAsleep_ = false;
     }
 
-    /// True if every channel leaves unchanged. Its samples are still to be copied to kept[j], for a delay
-    /// that may be set later.
+    /// True if no channel is changed. The caller still copies the samples to kept[j], for a delay that may be
+    /// set later.
     bool passes(float** kept, int frames) noexcept {
         for (int j = 0; j < channels_; ++j) {
             const auto c = index(j);

@@ -81,7 +81,7 @@ public:
                 load_[j],
                 rest_[j]};
     }
-    /// Goes on with them in a channel, as if their extremes had just happened. After prepare().
+    /// Restores the sums of a channel, as if their extremes had just happened. Call it after prepare().
     void recall(std::size_t j, const GuardSums& m) noexcept {
         const std::size_t newest = (part_ + parts - 1) % parts;
         oldHigh_[j] = highs_[newest][j] = m.high;
@@ -91,7 +91,7 @@ public:
         rest_[j] = to_[j] = m.rest;
         silentSeconds_ = 0.0f;
     }
-    /// One channel more, at rest. R.
+    /// Adds a channel, at rest. R.
     void widen() noexcept { ++channels_; }
 
     /// `areas` of the tile just sent, in seconds at full scale. False: the next tile is played unchanged.

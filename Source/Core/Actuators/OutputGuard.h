@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Protection stage before the actuators: a gain per channel that keeps its mean over 250 ms, and its content
-// below 5 Hz, within limits::guardShare of full scale, whatever was summed. Neither is felt, and both only
-// warm a coil.
+// Protection before the actuators: LinkedLimiter (below), then OutputGuard. The guard is a gain per channel
+// that keeps the mean over 250 ms, and the content below 5 Hz, within limits::guardShare of full scale.
+// Neither is felt, and both only warm a coil.
 //
 // It decides at the ends of tiles of a third of a millisecond on an absolute grid of whole frames, so samples
 // do not depend on block sizes. While the gain is 1, samples stay unchanged. Rule: GuardLaw.
@@ -41,25 +41,25 @@ public:
         frame_ = nowhere;
     }
 
-    /// M, not while rendering.
+    /// What recall() restores. M, not while rendering.
     GuardSums sums(std::size_t channel) noexcept {
         if (hasSums_) endTile();
         frame_ = nowhere;
         return law_.sums(channel);
     }
-    /// Goes on with these, one per channel. M, after prepare().
+    /// Restores these sums, one per channel. M, after prepare().
     void recall(const GuardSums* sums) noexcept {
         for (std::size_t j = 0; j < channels_; ++j) law_.recall(j, sums[j]);
         for (int k = 0; k < 2; ++k) acts_ = law_.take({}); // both ends of the next tile's ramp
     }
     std::size_t channels() const noexcept { return channels_; }
-    /// One channel more, at rest. R.
+    /// Adds a channel, at rest. R.
     void widen() noexcept { law_.widen(), ++channels_; }
 
     /// Sets the absolute number of the next frame. Tiles lie on the grid of these numbers, so that samples do
     /// not depend on the output latency. Without it the grid starts at prepare. R.
     void moveTo(std::int64_t frame) noexcept {
-        if (frame == frame_) return; // it goes on: no division
+        if (frame == frame_) return; // the usual case needs no division
         const auto at = static_cast<int>((frame % tile_ + tile_) % tile_);
         if (at != filled_ && hasSums_) endTile();
         filled_ = at;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a vector kernel does for one tile of 64 frames. Written once in TileKernels.cpp, compiled once per
-// instruction set.
+// Interface of the vector kernels: limiter, guard sums, tiles of 64 frames of modes, measures of samples.
+// Written once in TileKernels.cpp, compiled once per instruction set.
 #pragma once
 #include "Core/Limits.h"
 #include "Core/Modes/InstructionSet.h"
@@ -126,7 +126,7 @@ struct TileStrikes {
 struct Measured {
     float peak = 0.0f, squares = 0.0f;
 };
-/// The same in the making, per lane of the widest vector. The last bits of the sums differ between sets.
+/// The same while being summed, per lane of the widest vector. The last bits of the sums differ between sets.
 struct alignas(64) MeasuredLanes {
     float peaks[16]{}, squares[16]{};
 
