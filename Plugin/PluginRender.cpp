@@ -149,7 +149,7 @@ void PluginProcessor::followTempo(double seconds) noexcept {
     });
 }
 
-// A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.
+// A new take has received no controls: it begins with the scene's own gravity and materials.
 void PluginProcessor::forgetControls() noexcept {
     beats_.forget();
     music_.forget();
@@ -246,8 +246,8 @@ void PluginProcessor::readNote() noexcept {
     hasNote_ = notes_ && notes_->next(note_);
 }
 
-// Up to frame `at` of a block of so many frames, of which a part begins at `first`. What is said of a note at
-// its onset is true of it from there on, also where it is fixed then.
+// Handles note events up to frame `at`; the block has `frames` frames, its part begins at `first`. Changes of
+// a note at its onset frame are part of its onset.
 void PluginProcessor::takeNotes(int at, int first, int frames) noexcept {
     const auto frame = [&] { return std::clamp(note_.frame, first, frames - 1); };
     while (hasNote_ && frame() <= at) {
