@@ -51,7 +51,7 @@ struct BusMap {
     explicit BusMap(const juce::AudioProcessor& processor);
     /// How many of the first `enchanters` are connected. Any thread.
     int connected(int enchanters) const noexcept;
-    /// How many actuators are connected before the first that is not. Any thread.
+    /// The number of actuators before the first that is not connected. Any thread.
     int leading() const noexcept;
 };
 

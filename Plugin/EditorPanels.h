@@ -11,7 +11,7 @@
 
 namespace physvib {
 
-/// Tells what a person has done with the state; what cannot be done is a line for them.
+/// What panels do with the state: apply an edit to it, or show the user a line if that is impossible.
 struct MixHands {
     std::function<void(const std::function<void(PluginState&)>&)> edit;
     std::function<void(const juce::String&)> report;
@@ -50,7 +50,7 @@ public:
     MixPanel(PluginProcessor& plugin, MixHands hands);
     void take(const PluginState& state);
     void update(const ChannelMeters& meters);
-    int wishedWidth() const;      ///< that shows all strips
+    int wishedWidth() const;      ///< in pixels, so that all strips are visible
     std::function<void()> onMenu; ///< a right click on the level
     void mouseDown(const juce::MouseEvent& e) override {
         if (e.eventComponent == &level_ && e.mods.isPopupMenu()) onMenu();
@@ -71,7 +71,7 @@ private:
     juce::Rectangle<int> levelName_, levelValue_, limiterValue_;
 };
 
-/// What the rule says, for people: "C4 strikes wood at 50 %, 0 %". Any thread.
+/// The rule as text for the user: "C4 strikes wood at 50 %, 0 %". Any thread.
 juce::String wordsOf(const NoteRule& rule, const Scene& scene);
 juce::String wordsOf(const ControllerRule& rule);
 
@@ -112,7 +112,7 @@ private:
     std::unique_ptr<juce::AlertWindow> form_; // the last: it is drawn by our look
 };
 
-/// What a key does, for people: "C4: 262 Hz at 0 %, 50 %, as long as it is held". Any thread.
+/// What a key plays, as text for the user: "C4: 262 Hz at 0 %, 50 %, as long as it is held". Any thread.
 juce::String wordsOfKey(int note, const MidiTable& table, const PluginState& state,
                         const NoteKnobs& knobs = {});
 

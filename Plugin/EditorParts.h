@@ -28,7 +28,7 @@ void askFile(std::unique_ptr<juce::FileChooser>& chooser, const juce::String& ti
     });
 }
 
-/// A rounded ground. M.
+/// Fills a panel with rounded corners. M.
 inline void fillPanel(juce::Graphics& g, const juce::Component& component, juce::Rectangle<int> area) {
     g.setColour(shade(component, Shade::panel));
     g.fillRoundedRectangle(area.toFloat(), 8.0f);

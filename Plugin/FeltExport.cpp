@@ -15,7 +15,7 @@ namespace physvib {
 
 namespace {
 
-constexpr double shareOfSilence = 1e-3; // a vibration is over 60 dB below its beginning
+constexpr double shareOfSilence = 1e-3; // a note ends where its vibration has decayed by 60 dB
 constexpr int ticksPerSecond = 24000;   // a quarter note of MIDI is a second: at most 15 bits
 
 struct WrittenNote {
@@ -46,7 +46,7 @@ int channelOf(const FeltExport& felt, const CollisionEvent& e) {
 std::vector<WrittenNote> notesOf(const FeltExport& felt) {
     constexpr std::int64_t roundingNs = 2;
     std::vector<WrittenNote> notes;
-    std::array<std::size_t, 128> last{};                   // of each number, counted from 1; 0: none
+    std::array<std::size_t, 128> last{};                   // by MIDI note: index in `notes` plus 1; 0: none
     std::array<std::array<std::size_t, 128>, 17> lastOf{}; // the same by channel
     for (const CollisionEvent& e : felt.events) {
         WrittenNote note{numberOf(e.frequencyHz), channelOf(felt, e), e.timeNs, endOf(e),
@@ -94,7 +94,7 @@ Result<std::string> asClip(const FeltExport& felt, const std::string& path, Clip
 
 void FeltEvents::add(std::uint64_t prepares, std::span<const TakeEvent> events) {
     for (const auto& [run, played, place] : events) {
-        if (prepares == prepares_ && run < run_) continue; // the end of the one before
+        if (prepares == prepares_ && run < run_) continue; // late events of an earlier run
         if (prepares != prepares_ || run > run_) events_.clear();
         prepares_ = prepares;
         run_ = run;

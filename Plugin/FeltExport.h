@@ -14,14 +14,14 @@ struct PluginState;
 /// The events of the newest run, as many as are worth a file. M only.
 class FeltEvents {
 public:
-    static constexpr std::size_t mostKept = 65536; ///< of a world that never stops; the oldest go
+    static constexpr std::size_t mostKept = 65536; ///< events; beyond that the oldest are dropped
 
-    /// What drainLog() gave, in its order, and how often we were prepared: runs count from 1 each time.
+    /// Appends what drainLog() returned; runs count from 1 after each of `prepares` preparations.
     void add(std::uint64_t prepares, std::span<const TakeEvent> events);
 
     /// Playable, in time order, the first at 0 if `fromFirst`, else from the run's beginning.
     std::vector<CollisionEvent> events(bool fromFirst) const;
-    /// Earlier events of that run that are not kept.
+    /// How many earlier events of that run were dropped.
     std::uint64_t leftOut() const noexcept { return told_ - events_.size(); }
     bool areThere() const noexcept { return !events_.empty(); }
 
@@ -38,7 +38,7 @@ struct FeltExport {
     PhantomPanner panner;
 };
 
-/// Endings of the files they become. M only.
+/// File endings that exportFelt writes. M only.
 std::vector<std::string_view> feltEndings();
 
 /// The file, or files (a format of one channel has one for each actuator), by the ending of `path`. A line

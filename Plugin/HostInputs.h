@@ -10,14 +10,14 @@
 
 namespace physvib {
 
-/// What a format says of one note beside MIDI. As it is here, it says nothing.
+/// What a plug-in format adds to a MIDI note. The defaults add nothing.
 struct NoteTouch {
     int id = -1;                        ///< the host's; -1: none
     double semitones = 0.0, gain = 1.0; ///< tuning; 0 to 4
     double pan = 0.0, brightness = 0.0; ///< -1 to 1, of the field; -1/2 to 1/2, as CC 74 less 64
 };
 
-/// A message of MIDI, or what is said of notes that sound.
+/// A MIDI message, or a change of notes that sound.
 struct NoteEvent {
     enum class Kind { midi, off, tuning, volume, pan, brightness, pressure };
     Kind kind = Kind::midi;
@@ -58,7 +58,7 @@ struct NoteSound {
 /// picture. When the key is let go, the last one decays. R only.
 class HeldNotes {
 public:
-    static constexpr std::size_t most = 32;           ///< a further one takes the place of the oldest
+    static constexpr std::size_t most = 32;           ///< voices; a further note replaces the oldest
     static constexpr double minStrikeSeconds = 0.004; ///< of whole periods, one at least
 
     struct Note {
@@ -68,7 +68,7 @@ public:
         NoteTouch touch{};
         double pressure = 0.0, masterPressure = 0.0; ///< 0 to 1, of the finger; what MPE's master adds
 
-        /// Whether that key is meant, by its id where the host gives it one.
+        /// True for this note: by its id, if the host gives one, its channel and number; -1: any.
         bool is(int byId, int byChannel, int byNumber) const noexcept {
             return (byId < 0 || touch.id < 0 || byId == touch.id) &&
                    (byChannel < 0 || byChannel == channel) && (byNumber < 0 || byNumber == number);
@@ -140,7 +140,7 @@ private:
     std::array<bool, 17> pedal_{}; // per MIDI channel, from 1
 };
 
-/// What MIDI says of each channel, from 1, beside its notes: bend (from -1/2 to 1/2), slide, and the zones of
+/// MIDI expression of each channel, from 1: bend (from -1/2 to 1/2), slide, and the zones of
 /// MPE 1.1, whose master moves the notes of its members as well. R only.
 class ChannelExpression {
 public:
@@ -173,7 +173,7 @@ public:
 
 private:
     static std::size_t at(int channel) noexcept { return static_cast<std::size_t>(channel); }
-    std::array<float, 17> bend_{}, slide_{}; // 0 stays 0
+    std::array<float, 17> bend_{}, slide_{}; // places 0 stay 0
     std::array<int, 17> parameter_{};        // the registered one that was chosen
     int lower_ = 0, upper_ = 0;
 };
@@ -241,14 +241,14 @@ public:
         next_ = place_ + blockSeconds * perSecond_;
     }
 
-    /// A take begins, so far into the block.
+    /// A take begins, `seconds` after the block's start.
     void begin(double seconds) noexcept {
         first_ = std::ceil(at(seconds) - nearBeats);
         told_ = {};
         toldAt_ = -1.0;
     }
 
-    /// What `tell(const Script&)` has to say, so far into the block and the take; false: again.
+    /// Calls `tell(const Script&)` if place or rate changed; false: again. Seconds of the block and the take.
     template <class Tell>
     void news(double seconds, double takeSeconds, Tell tell) noexcept {
         if (perSecond_ <= 0.0) return;
@@ -278,10 +278,10 @@ class ControlPace {
 public:
     static constexpr int perSecond = 1500; // every 32 frames at 48 kHz: gains move in ramps of 10 ms
 
-    /// The frames between two. Any thread.
+    /// The minimum number of frames between two changes. Any thread.
     static constexpr int framesAt(int sampleRateHz) noexcept { return std::max(1, sampleRateHz / perSecond); }
 
-    /// Nothing has gone. M, or R.
+    /// The next change may be sent at once. M, or R.
     void reset(int sampleRateHz) noexcept {
         frames_ = framesAt(sampleRateHz);
         next_ = 0;

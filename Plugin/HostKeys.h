@@ -6,7 +6,7 @@
 
 namespace physvib {
 
-/// How X11 numbers a key code of juce::KeyPress.
+/// The X11 key symbol of a key code of juce::KeyPress.
 constexpr unsigned long keySymbolOf(int juceKeyCode) noexcept {
     constexpr int extended = 0x10000000, lastControl = 0x1f;
     if ((juceKeyCode & extended) != 0 || juceKeyCode <= lastControl)
@@ -22,7 +22,7 @@ public:
     /// To the host, if the key was typed into that window since the last call. What a host has handed on it
     /// has seen: it would come back for ever. False: not sent.
     bool send(unsigned long symbol) noexcept;
-    /// Gives the keyboard to that window.
+    /// Gives that window the keyboard focus.
     void take() noexcept;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Draws the list of MIDI rules, with a form for each kind; the reader of states checks what is entered.
+// The list of MIDI rules with a form for each kind (the state reader checks the input), and the keyboard.
 #include "EditorPanels.h"
 #include "EditorParts.h"
 #include <algorithm>
@@ -86,7 +86,7 @@ void MidiPanel::showChoice() {
     remove_.setEnabled(isChosen);
 }
 
-// What moves it, and what that does.
+// The note or controller, and a description of its rule.
 std::pair<juce::String, juce::String> MidiPanel::wordsOfRow(int row) const {
     const auto i = static_cast<std::size_t>(row);
     if (isNote(row)) return {noteName(state_.notes[i].note), wordsOf(state_.notes[i], state_.scene)};
@@ -135,7 +135,7 @@ void MidiPanel::remove(int row) {
     });
 }
 
-// The form is ours: a host may close the window before it is answered.
+// This panel owns the form, because a host may close the window before the user answers.
 juce::AlertWindow& MidiPanel::newForm(const juce::String& title) {
     form_ =
         std::make_unique<juce::AlertWindow>(title, juce::String{}, juce::MessageBoxIconType::NoIcon, this);
@@ -198,7 +198,7 @@ void MidiPanel::askController(int row, ControllerRule rule) {
     });
 }
 
-// In the place of the one that is changed, and of any other for the same note.
+// Replaces the edited rule and any other rule for the same note; rules stay sorted by note.
 void MidiPanel::keep(int row, const NoteRule& rule) {
     hands_.edit([row, &rule](PluginState& state) {
         if (row >= 0 && row < static_cast<int>(state.notes.size()))
@@ -239,7 +239,7 @@ constexpr int captionPixels = 20;
 
 bool isBlackKey(int note) { return juce::MidiMessage::isMidiNoteBlack(note); }
 
-/// How many white keys lie below.
+/// The number of white keys of the keyboard below `note`.
 int whiteKeysBelow(int note) {
     int count = 0;
     for (int n = KeyboardPanel::lowest; n < note; ++n) count += isBlackKey(n) ? 0 : 1;

@@ -25,7 +25,7 @@ public:
     /// At least the layout's `channels`; nothing older than `longestFrames` is read. Any thread but R.
     MusicDelay(const EnchanterLayout& layout, int channels, int sampleRateHz, std::int64_t longestFrames);
 
-    /// As at first. Any thread but R, while nobody renders.
+    /// Forgets all samples and pauses. Any thread but R, while nobody renders.
     void reset() noexcept;
 
     /// What is heard from the renderer's frame `at` on, after silence since the last. R, wait-free.
@@ -33,7 +33,7 @@ public:
 
     /// Not played, with ramps of 10 ms: `from` to `until`, at least `shortestPauseSeconds`. R, wait-free.
     void silence(std::int64_t from, std::int64_t until) noexcept;
-    static constexpr double shortestPauseSeconds = 0.05; // longer than both ramps: it is felt
+    static constexpr double shortestPauseSeconds = 0.05; // longer than both ramps, so that the pause is felt
 
     /// Where a take has ended, the last sample falls to zero within 10 ms. R, wait-free.
     const float* const* at(std::int64_t frame, int frames) noexcept override;

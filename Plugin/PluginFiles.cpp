@@ -20,7 +20,7 @@ namespace physvib {
 
 namespace {
 
-/// As the person at this instance has left it; enchanter j leaves by channel j.
+/// Level and strips of this instance as limits; actuator j is on channel j.
 DeskLimits limitsOf(const PluginState& state) {
     DeskLimits limits{valueIn(state, Parameter::level), state.strips};
     resizeStrips(limits.strips, state.layout.geometry.count);
@@ -256,7 +256,7 @@ void PluginEditor::exportFeltAs(const juce::File& file) {
     report(written ? words(written.value).trim() + without : words(written.error));
 }
 
-// What the host has for this parameter, and below it what is ours.
+// The host's own menu for this parameter, then our entries.
 void PluginEditor::showMenu(HostParameter& parameter, const std::function<void()>& type) {
     juce::PopupMenu menu;
     std::unique_ptr<juce::HostProvidedContextMenu> hosts;

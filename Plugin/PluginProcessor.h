@@ -24,7 +24,7 @@
 
 namespace physvib {
 
-/// Which parameters a step is about. Others keep the value that they have when it is undone: automation, a
+/// The parameters that an edit changed. Others keep the value that they have when it is undone: automation, a
 /// controller or the host may have moved them since.
 using TouchedParameters = std::bitset<parameterCount>;
 
@@ -45,7 +45,7 @@ public:
     };
     enum class Way { undo, redo, exchange };
 
-    /// What was there before an edit.
+    /// Records the state before an edit.
     void add(PluginState before, TouchedParameters touched, Edit edit = Edit::part,
              Clock::time_point now = Clock::now()) {
         here_.redo.clear();
@@ -118,7 +118,7 @@ public:
         return knobsBy(
             [this](Parameter which) { return parameters_[static_cast<std::size_t>(which)]->value(); });
     }
-    /// What a person changed, one step back or forth, with the window's parameters; the other of A and B. M.
+    /// Undo, redo, or the other state of A and B, with the parameters that the user changed. M.
     using Step = EditHistory::Way;
     void go(Step step);
     bool can(Step step) const;
@@ -308,9 +308,9 @@ private:
     HostBeats tempo_;
     int blockFrames_ = 0;
     GainRamp open_;     // shut by bypass
-    OutputGuard guard_; // of what takes add up to while one follows another
+    OutputGuard guard_; // limits the sum of takes while one follows another
     int guardRateHz_ = 0;
-    double releasedMs_ = std::numeric_limits<double>::infinity(); // since when guard_ rests; not: it does not
+    double releasedMs_ = std::numeric_limits<double>::infinity(); // when guard_ came to rest
     bool isShut_ = false;
     std::atomic<bool> isStopped_{false};
     ChannelMeters measured_;
@@ -328,7 +328,7 @@ private:
     ChannelExpression expression_;
 };
 
-/// Between a format's entry and the instance that its wrapper makes meanwhile, on the same thread.
+/// Passes values between a format's entry and the instance that its wrapper creates on the same thread.
 struct Making {
     int usualBlockFrames = 0;            ///< if the entry was told, for the instance; 0: not told
     PluginProcessor* instance = nullptr; ///< the newest, for the entry

@@ -17,7 +17,7 @@ constexpr float peakFallDbPerSecond = 20.0f;
 
 } // namespace
 
-// In parts: some hosts exceed what they announced, and SILENCE closes at its frame.
+// In parts: some hosts send longer blocks than announced, and SILENCE acts at its frame.
 void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiBuffer& midi,
                              bool bypassed) noexcept {
     const int frames = buffer.getNumSamples();
@@ -51,7 +51,7 @@ void PluginProcessor::render(juce::AudioBuffer<float>& buffer, const juce::MidiB
     measure(buffer);
 }
 
-// What has no points in this block has its value from the beginning on.
+// A parameter without points in this block has its value from the block's first frame on.
 void PluginProcessor::readParameters() noexcept {
     for (std::size_t p = 0; p < parameterCount; ++p)
         if (points_.nextOf(static_cast<Parameter>(p)) == ParameterPoints::none)
@@ -149,7 +149,7 @@ void PluginProcessor::followTempo(double seconds) noexcept {
     });
 }
 
-// A new take knows nothing of what its predecessor was told, and has the scene's own gravity and materials.
+// A new take has received no controls: it begins with the scene's own gravity and materials.
 void PluginProcessor::forgetControls() noexcept {
     beats_.forget();
     music_.forget();
@@ -165,7 +165,7 @@ void PluginProcessor::forgetControls() noexcept {
     }
 }
 
-// A value is told again until it is taken, so the newest is never lost.
+// A value is sent again until the queue accepts it, so the newest is never lost.
 template <class Send>
 void PluginProcessor::send(std::initializer_list<Parameter> those, Send what) noexcept {
     if (std::ranges::none_of(those, [this](Parameter which) {
@@ -178,7 +178,7 @@ void PluginProcessor::send(std::initializer_list<Parameter> those, Send what) no
     if (what()) sent_ = told;
 }
 
-// Within frames first to end of this block, as its pace allows; else later.
+// Calls `hold(frame)` at the first frame in [first, end) that the pace allows; false: none, or it failed.
 template <class Hold>
 bool PluginProcessor::sendAt(ControlPace& pace, int first, int end, Hold hold) noexcept {
     const std::int64_t now = takes_.session()->timeline().framesRendered(), at = pace.nextFrom(now + first);
@@ -233,7 +233,7 @@ void PluginProcessor::silence(int frame) noexcept {
     owesSilence_ = !takes_.silence(frame);
 }
 
-// Of the window's keyboard: at the beginning of the next part.
+// Plays keys of the window's keyboard at `frame` of the coming part.
 void PluginProcessor::playKeys(int frame) noexcept {
     for (Key key; keys_.pop(key);) {
         const juce::MidiMessage message{key.velocity > 0 ? 0x90 : 0x80, key.note & 127, key.velocity & 127};
@@ -246,8 +246,8 @@ void PluginProcessor::readNote() noexcept {
     hasNote_ = notes_ && notes_->next(note_);
 }
 
-// Up to frame `at` of a block of so many frames, of which a part begins at `first`. What is said of a note at
-// its onset is true of it from there on, also where it is fixed then.
+// Handles note events up to frame `at`; the block has `frames` frames, its part begins at `first`. Changes of
+// a note at its onset frame are part of its onset.
 void PluginProcessor::takeNotes(int at, int first, int frames) noexcept {
     const auto frame = [&] { return std::clamp(note_.frame, first, frames - 1); };
     while (hasNote_ && frame() <= at) {
@@ -293,7 +293,7 @@ void PluginProcessor::receive(const juce::MidiMessageMetadata& message, int fram
     if (kind == 0xb0) control(channel, message.data[1], message.data[2], frame);
 }
 
-// Of that note, or of all that the channel has and leads (-1).
+// Sets the pressure of that note, or (-1) of all notes of the channel and of the MPE zone that it leads.
 void PluginProcessor::press(int channel, int note, double pressure) noexcept {
     held_.each([&](HeldNotes::Note& held) {
         if (held.channel == channel && (note < 0 || note == held.number)) held.pressure = pressure;
@@ -325,7 +325,7 @@ NoteKnobs PluginProcessor::knobs() const noexcept {
     return knobsBy([this](Parameter which) { return value(which); });
 }
 
-// Where the strike's own place, shifts, bend and slide put it, and as loud as the voice wants it there.
+// Moves the strike by shifts, bend and slide, and makes it as loud there as the voice requires.
 CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel,
                                        const NoteTouch& touch) const noexcept {
     const auto& settings = takes_.settings();
@@ -357,7 +357,7 @@ CollisionEvent PluginProcessor::placed(CollisionEvent strike, int channel,
     return strike;
 }
 
-// A finger that presses is louder than the key was struck.
+// The amplitude is the larger of velocity and pressure.
 NoteSound PluginProcessor::soundOf(const HeldNotes::Note& note) const noexcept {
     const auto& settings = takes_.settings();
     CollisionEvent event = settings.midi.strikeOf(note.number, knobs(), settings.layout);
@@ -367,7 +367,7 @@ NoteSound PluginProcessor::soundOf(const HeldNotes::Note& note) const noexcept {
     return {event.frequencyHz, event.amplitude, event.x, event.y};
 }
 
-// What of held notes begins from frame `first` to `end` of this part.
+// Plays the strikes of held notes that begin in frames [first, end) of this part.
 void PluginProcessor::sustain(int first, int end) noexcept {
     Session* const session = takes_.session();
     if (!session || first >= end) return;

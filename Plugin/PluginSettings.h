@@ -15,13 +15,13 @@ inline int enchantersOf(const PluginState& state) noexcept { return state.layout
 /// As many strips as there are enchanters, and no equaliser beyond. Any thread.
 void fitToLayout(PluginState& state);
 
-/// A preset's places for the enchanters that are there, which keep what drives them and their strips. M only.
+/// Arranges the actuators as that layout preset; they keep their profiles and strips. M only.
 void usePreset(PluginState& state, std::string_view name);
 
-/// Another scene. Note rules keep their materials and bodies by name, or are left out. Any thread.
+/// Replaces the scene. Note rules keep their materials and bodies by name, or are left out. Any thread.
 void useScene(PluginState& state, Scene scene);
 
-/// True if what plays by `a` can go on by `b`, another mix at most. Any thread.
+/// True if a take of `a` can play on with `b`: only the mix differs. Any thread.
 bool isSameTake(const PluginState& a, const PluginState& b);
 
 /// Any thread.
@@ -32,9 +32,9 @@ SessionSetup sessionSetupOf(const PluginState& state);
 /// all is rendered in the call, without the output latency of a world. Any thread.
 bool hasWorld(const PluginState& state) noexcept;
 
-/// In the unit of that parameter, as a state has it or as it comes. Any thread.
+/// The value in the parameter's unit; its default if the state has none. Any thread.
 double valueIn(const PluginState& state, Parameter which);
-/// The nearest that the parameter can have. Any thread.
+/// Sets it, clamped to the parameter's range. Any thread.
 void setParameter(PluginState& state, Parameter which, double value);
 
 /// Whether a parameter changes what such a state plays, now or by a note: else it is not shown. Any thread.
@@ -70,7 +70,7 @@ void useBuiltIn(PluginState& state, int index, int outputs = 0);
 /// they keep what drives them and their strips. M only.
 void rearrange(PluginState& state, int outputs);
 
-/// The strike level up to which a file of such a preset is no louder than the preset itself. M only.
+/// The strike level in dB of the state's preset, at least the parameter's default. M only.
 double usualStrikeDb(const PluginState& state);
 
 /// What a new instance plays: notes and beats, nothing by itself. M only.

@@ -63,7 +63,7 @@ bool Take::queueLaw(PanningLaw law, double exponent, int frame) noexcept {
     return panners_.queue.push({session.timeline().framesRendered() + frame, exponent, law});
 }
 
-// What the session has no room for stays the first.
+// A control that the session's full queue refuses stays the first.
 template <class Make>
 void Take::release(Held& held, std::int64_t until, Make make) noexcept {
     const std::int64_t now = session.timeline().framesRendered();
@@ -75,7 +75,8 @@ void Take::release(Held& held, std::int64_t until, Make make) noexcept {
     }
 }
 
-// What the renderer comes to in the next frames: behind them as an input is felt late, less its own latency.
+// Forwards the controls for the next frames of the renderer: an input acts L later, less the renderer's
+// latency.
 void Take::releaseUntil(int frames) noexcept {
     const auto& time = session.timeline();
     const std::int64_t until = time.framesRendered() + frames - time.inputLatencyFrames() +
@@ -126,7 +127,7 @@ std::array<float*, limits::maxEnchanters> Take::from(int frame) noexcept {
     return at;
 }
 
-// What was played last falls to silence: a hand would feel the step.
+// The last samples fade to silence, because a step would be felt.
 void Take::standStill(int frames) noexcept {
     session.wait(frames);
     for (std::size_t j = 0; j < out.size(); ++j) std::fill_n(out[j].data(), frames, last_[j]);

@@ -30,26 +30,27 @@
 
 namespace physvib {
 
-/// Who wants its world to be stepped.
+/// An object whose worlds the stepping thread advances.
 class Stepped {
 public:
     virtual void tick() = 0;                           ///< on the stepping thread
     virtual int ticksPerSecond() const noexcept = 0;   ///< while blocks are rendered. Any thread
-    virtual double idleSeconds() const noexcept = 0;   ///< while none is: the first block may wait so long
+    virtual double idleSeconds() const noexcept = 0;   ///< the same while none is; the first block waits so
+                                                       ///< long
     virtual std::uint64_t blocks() const noexcept = 0; ///< rendered so far. Any thread
 
 protected:
     ~Stepped() = default;
 };
 
-/// The thread that steps the worlds of all instances of the process. Runs while there is anybody to step, and
-/// comes seldom to who renders nothing. A juce::SharedResourcePointer holds it.
+/// The thread that steps the worlds of all instances of the process. It runs while it has members, and
+/// steps a member that renders nothing only rarely. A juce::SharedResourcePointer holds it.
 class Stepper final : private juce::Thread {
 public:
     Stepper();
     ~Stepper() override;
 
-    /// Any thread but R; remove() returns when that one is not being stepped any more.
+    /// Any thread but R. remove() returns once that member is no longer being stepped.
     void add(Stepped& one);
     void remove(Stepped& one);
 
@@ -75,7 +76,7 @@ private:
     std::atomic<std::uint64_t> wakeUps_{0};
 };
 
-/// How often the worlds are stepped, and what play-out delay that needs.
+/// How often the worlds are stepped, and the output latency that this needs.
 struct TakePace {
     static constexpr int minTicksPerSecond = 200;    // 5 ms: a quarter of the two steps that are in L anyway
     static constexpr double headroomSeconds = 0.005; // a DAW's own threads come first (Docs/plugin.md)
@@ -101,7 +102,7 @@ struct TakeEvent {
     std::uint64_t place = 0; ///< among those of its take
 };
 
-/// Counts and figures for people.
+/// Counts and figures for the status line.
 struct TakesStatus {
     SessionStatus session; ///< of the playing take
     int take = 0;
@@ -120,11 +121,11 @@ public:
     void driveByHand() noexcept { isDrivenByHand_ = true; }
     void tick() override; ///< steps the worlds
 
-    /// What later takes play, and by what strips. While prepared, the playing take is replaced as soon as R
-    /// comes by. Throws std::invalid_argument, changing nothing, if the setup is not valid. Any thread but R.
+    /// Sets what later takes play, and their strips. While prepared, R replaces the playing take in its next
+    /// block. Throws std::invalid_argument, changing nothing, if the setup is not valid. Any thread but R.
     void set(SessionSetup setup, const TakeSettings& settings, std::vector<Strip> strips = {});
 
-    /// Other strips; what plays goes on, and is felt by them L later. Any thread but R.
+    /// Sets the strips; the take plays on, and they act L later. Any thread but R.
     void mix(std::vector<Strip> strips);
 
     /// A fresh take stands ready; nothing plays yet. Any thread but R, while nobody renders.
@@ -133,7 +134,7 @@ public:
     void prepare(int sampleRateHz, int blockFrames, double knownAfterSeconds = 0.0, bool hasMusic = false);
     void release();
 
-    /// How worlds are stepped from the next block on; what plays goes on. Any thread.
+    /// Sets how worlds are stepped from the next block on; the take plays on. Any thread.
     void setTiming(TakeTiming timing) noexcept { timing_ = timing; }
     TakeTiming timing() const noexcept { return timing_; }
 
@@ -148,7 +149,7 @@ public:
     }
     bool isDirect() const noexcept { return directFrames_ > 0; } ///< as latencyFrames
 
-    /// At the beginning of a block, first: lets new settings in. How they follow the transport. R, wait-free.
+    /// Adopts new settings; called first in each block. Returns their transport mode. R, wait-free.
     TransportMode lookForNew() noexcept;
 
     /// The next `begin` ends the playing take, if there is one, and starts another at its seed. R.
@@ -161,10 +162,10 @@ public:
     /// R: the playing take's; none: the newest
     const TakeSettings& settings() const noexcept { return playing_ ? playing_->settings() : newSettings_; }
 
-    /// Before each part of a block; true: a take starts, which knows no controls. R, wait-free if realtime.
+    /// Called before each part of a block. True: a take starts without controls. R, wait-free if realtime.
     bool begin(RenderMode mode) noexcept;
-    /// What happened before that frame of the coming block is not felt any more, whatever take it is of.
-    /// False if one has no room for it: it has to be told again. R, wait-free.
+    /// Mutes in all takes what happened before that frame of the coming block. False: the queue of a take was
+    /// full; call again. R, wait-free.
     bool silence(int frame) noexcept;
     /// Renders at most the prepared block; `addTo` is then valid. R, wait-free if realtime.
     void render(int frames, RenderMode mode) noexcept;
@@ -175,7 +176,7 @@ public:
 
     /// What was played since the last call, at most the newest `logSize` events. Any thread but R.
     std::vector<TakeEvent> drainLog();
-    /// Where the bodies of the playing take are, and the session time of that; none: empty. Any thread but R.
+    /// Writes the playing take's poses (none: empty); returns their session time in ns. Any thread but R.
     std::int64_t poses(std::vector<BodyPose>& now);
     TakesStatus status() noexcept { return status_.read(); } ///< one reader
     /// why no take can be made, or a world stands still; empty while all is well. Any thread but R
@@ -223,7 +224,7 @@ private:
     std::string fault_;
     bool canMake_ = true;                    // until it fails, then from the next settings on
     int sampleRateHz_ = 0, blockFrames_ = 0; // 0: not prepared; they change while nobody renders
-    double knownAfterSeconds_ = 0.0;         // as they do
+    double knownAfterSeconds_ = 0.0;         // likewise
     std::atomic<bool> hasMusic_{false}; // as they do; a take that was built beside a change is built again
     std::condition_variable workToDo_;
 

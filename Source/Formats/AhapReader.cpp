@@ -53,7 +53,8 @@ struct AhapPattern {
     AhapControl intensity{1.0, 0.0}, sharpness{0.0, -1.0};
 };
 
-constexpr double longestLine = 0.1; // of intensity: its square then deviates from its chord by at most 0.0025
+constexpr double longestLine = 0.1; // change of intensity per line: its square then deviates from its chord
+                                    // by at most 0.0025
 
 /// The times at which `curve` bends during the event, including both ends.
 std::vector<double> bends(const AhapEvent& event, const std::vector<ClipPoint>& curve) {

@@ -158,8 +158,6 @@ struct FrequencyScale {
     double share(double hz) const noexcept { return std::clamp((hz - lowHz) / (highHz - lowHz), 0.0, 1.0); }
 };
 
-// Stable sort by time for items of any type. One instance sorts all types, to keep the web page's code small.
-
 /// Indices into `times`, earliest first. Any thread.
 inline std::vector<std::size_t> timeOrder(std::span<const double> times) {
     std::vector<std::size_t> order(times.size());
@@ -169,7 +167,8 @@ inline std::vector<std::size_t> timeOrder(std::span<const double> times) {
     return order;
 }
 
-/// `timeOf`: a member or function that gives a finite number. Any thread.
+/// Stable sort by time; timeOrder() does it for all types, which keeps the web page small. `timeOf`: a member
+/// or function that gives a finite number. Any thread.
 template <class T, class TimeOf>
 void sortByTime(std::vector<T>& items, TimeOf timeOf) {
     std::vector<double> times;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads and writes haptic files of others; the format follows from the file's ending.
+// Readers and writers of .hjif, .haptic and .ahap files, the choice of one by the file's ending, and the
+// report of what an imported file contains that is not played.
 #pragma once
 #include "Formats/Clip.h"
 #include "Io/Result.h"
@@ -108,9 +109,7 @@ Result<Clip> readAhap(std::string_view text, std::string_view name, const Freque
 /// `channel` as such a file. No curve changes a transient (AhapWriter.cpp) or has over 16 points. Any thread.
 std::string ahapText(const ClipChannel& channel, std::string_view title, const FrequencyScale& scale = {});
 
-// Counts the contents of an imported file that are not played, and reports them as one line.
-
-/// One thread at a time.
+/// Counts the contents of an imported file that are not played. One thread at a time.
 class LeftOut {
 public:
     /// Counts one more of that kind; its name may come from the file.

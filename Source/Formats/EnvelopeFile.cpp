@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Lines through the envelope at whole milliseconds, each as long as it stays within a cone of slopes.
+// Computes a channel's envelope, and fits it with the lines of Android effects: each line is as long as all
+// samples, one per millisecond, stay within the tolerance.
 #include "Formats/EnvelopeFile.h"
 #include "Io/Json/JsonText.h"
 #include <algorithm>
 
 namespace physvib {
-
-// Computes a channel's envelope: the sum of all waves just before and just after each point.
 
 namespace {
 
@@ -53,7 +52,7 @@ std::vector<double> momentsOf(const ClipChannel& channel) {
     return moments;
 }
 
-/// At a step of the curve: its value before or after the step.
+/// The value of the curve; where it jumps, the value before or after the jump.
 double sideOf(std::span<const ClipPoint> curve, double seconds, bool isBefore) {
     const auto first = std::ranges::lower_bound(curve, seconds - sameMomentSeconds, {}, &ClipPoint::seconds);
     const auto end = std::ranges::upper_bound(curve, seconds + sameMomentSeconds, {}, &ClipPoint::seconds);

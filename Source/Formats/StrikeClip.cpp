@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Events as waves: starts and cuts of a mode are edges on ticks, between two it is one decaying sine.
+// Converts events to waves (starts and cuts of a mode are edges on ticks; between two edges it is one
+// decaying sine), and renders clips to samples.
 #include "Formats/StrikeClip.h"
 #include "Core/ClockLaw.h"
 #include "Core/PortableMath.h"
@@ -113,7 +114,7 @@ double longestChord(double error) {
     return low;
 }
 
-constexpr double lastChord = 6.0; // a line from so many errors to 0 by way of one stays within one
+constexpr double lastChord = 6.0; // in errors: from here on one last line to 0 stays within the error
 
 } // namespace
 
@@ -172,8 +173,6 @@ std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::
     }
     return curve;
 }
-
-// Renders a clip wave by wave: interpolates amplitude and frequency, whose integral is the phase.
 
 namespace {
 

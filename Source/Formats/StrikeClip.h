@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Events as a clip: one sine at a time per channel and mode, with a piecewise linear envelope.
+// Converts events to a clip (one sine at a time per channel and mode, with a piecewise linear envelope), and
+// renders clips to samples.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"
@@ -32,8 +33,6 @@ Clip clipOfStrikes(std::span<const CollisionEvent> events, const StrikeClipSetti
 /// |amplitude|. The last is 0 where the decay is below that error, or lies on it at `endTick`. Any thread.
 std::vector<ClipPoint> decayCurve(double amplitude, double decayPerSecond, std::int64_t endTick, double error,
                                   int ticksPerSecond);
-
-// Renders a clip to samples.
 
 /// Every channel of `clip` (which has no clipFault) at that sample rate, from 0 s to its end. Waves at or
 /// above half the rate are omitted. 1 is full scale. Any thread.

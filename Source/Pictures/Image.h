@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RGB image, and its PNG encoding.
+// Geometry of a picture in pixels (points, rectangles, transforms, paths), colours, and an RGB image with its
+// PNG encoding.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,6 @@
 #include <vector>
 
 namespace physvib::picture {
-
-// Outlines of lines and curves, and their affine transforms.
 
 // Points and rectangles of a picture, in pixels: x to the right, y downwards.
 
@@ -122,7 +121,7 @@ inline Box boxAround(Spot centre, float width, float height) noexcept {
 struct Transform {
     float xx = 1.0f, xy = 0.0f, yx = 0.0f, yy = 1.0f, dx = 0.0f, dy = 0.0f;
 
-    /// Clockwise as one sees it, about the origin.
+    /// Clockwise on the screen, about the origin.
     static Transform rotation(float radians) noexcept {
         const float c = std::cos(radians), s = std::sin(radians);
         return {c, -s, s, c, 0.0f, 0.0f};

@@ -7,7 +7,7 @@
 #include <cmath>
 
 namespace physvib::picture {
-/// Or a grain that was passed.
+/// True for an impact, false for a grain of rolling or sliding.
 inline bool isHit(const CollisionEvent& event) noexcept { return event.source.kind == ContactKind::hit; }
 
 /// What a colour of a hit means: its material where the scene tells, else the part of the body on which every
@@ -25,7 +25,7 @@ public:
 
 private:
     void takeMaterials(const PictureInput& input);
-    bool takeParts(const PictureInput& input); ///< false, and nothing taken: a hit is felt on no part
+    bool takeParts(const PictureInput& input); ///< false: a hit is on no known part
     void takeFrequencies(const PictureInput& input);
 
     struct Rule {                                   // first match wins
@@ -56,7 +56,7 @@ Area laneOf(const Canvas& canvas, const PictureInput& input, Area row);
 /// Height that the lanes of `channels` channels need; more channels, less each.
 int lanesHeight(int channels) noexcept;
 
-/// The scale that all lanes of a window share, in words.
+/// The amplitude scale that all lanes of a window share, as text.
 std::string fullHeight(const WaveformEnvelope& wave);
 
 std::vector<int> everyChannelOf(const WaveformEnvelope& wave);
@@ -103,7 +103,7 @@ public:
             }
     }
 
-    // Exposed for the brightest place, then bent like film: 1 - exp(-light).
+    // The exposure follows the brightest pixel; then a film curve: 1 - exp(-light).
     void draw(Painter& g) const {
         const float brightest = rgb_.empty() ? 0.0f : *std::max_element(rgb_.begin(), rgb_.end());
         const float exposure = brightest > 2.0f ? 2.0f / brightest : 1.0f;

@@ -59,7 +59,7 @@ struct RenderMovie::Parts {
         time.drawLabels(canvas, grid, "s", axisRow);
     }
 
-    /// How strongly channel `c` vibrates then, from 0 to 1 for the loudest moment of all.
+    /// Level of channel `c` at that time, from 0 to 1 (the peak of the whole render).
     float levelAt(int c, double seconds) const {
         if (input.waveform == nullptr || c >= input.waveform->channels() || input.waveform->peak() <= 0.0f)
             return 0.0f;
