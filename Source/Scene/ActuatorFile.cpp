@@ -20,7 +20,7 @@ namespace {
 constexpr std::array<std::string_view, 2> kindNames{"linear", "rotating"};
 constexpr std::string_view resonanceField = "resonance_hz", qualityField = "q", bandField = "band_hz";
 
-// Kinds: null is what is not known.
+// Kinds of fields; null: not known.
 struct BandOrNull {};
 struct FigureOrNull {
     double least, most;

@@ -40,11 +40,11 @@ struct OptionalColumns {
     bool kinds = false, materials = false, depths = false, parts = false;
 };
 
-/// Those that these events need. Any thread.
+/// The optional columns that these events need. Any thread.
 OptionalColumns columnsOf(std::span<const CollisionEvent> events);
 
-/// Comment with header line, and the line of one event: the parts of eventsCsv. `field` is written if known.
-/// Any thread.
+/// The provenance comment (with `field` if known) and header line, and one event's line: the parts of
+/// eventsCsv. Any thread.
 std::string eventsCsvHead(Provenance provenance, FieldSize field, OptionalColumns columns);
 void appendEventRow(std::string& text, CollisionEvent event, OptionalColumns columns,
                     const SoundNames& names);

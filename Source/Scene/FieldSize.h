@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Size of the field that x and y of events refer to: text format, a check for events outside, and why a
-// render would be silent, so that the programs do not report success.
+// Size of the field that x and y of events refer to: its text format, a warning about events outside, and the
+// reason why a render would be silent, so that programs do not report success.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/PhantomPanner.h"

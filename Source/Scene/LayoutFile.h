@@ -33,7 +33,7 @@ LayoutDescription describeLayout(std::string name, const EnchanterLayout& geomet
 /// The preset of that name, which must exist, with profile and full scale of `before`. Any thread.
 LayoutDescription presetLayout(std::string_view name, const std::vector<EnchanterDescription>& before = {});
 
-/// Actuators of `layout` keep profile and full scale of those of the same number. Any thread.
+/// Copies profile and full scale from `before` to the actuators of the same number. Any thread.
 void keepActuators(LayoutDescription& layout, const std::vector<EnchanterDescription>& before);
 
 /// A preset by name, else the layout of the file. Message thread (M) only.

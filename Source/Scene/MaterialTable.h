@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Material tables as JSON: libraries from which scenes copy materials.
+// Material tables as JSON, from which scenes copy materials; and checks of materials and of unique names.
 #pragma once
 #include "Core/NameNumbers.h"
 #include "Io/Result.h"
@@ -52,8 +52,8 @@ std::string checkUnique(const std::string& list, const std::vector<T>& all) {
 
 // Validates materials alone, for scenes and for material tables, which need no shapes and no Box2D.
 
-/// Empty if all names are valid: each its own. Events carry a name's number, so two must not share one. Else
-/// one line that names the field, as files spell it, and what was expected. Any thread.
+/// Empty if all names are unique, and so are their numbers, which events carry. Else one line that names the
+/// field, as files spell it, and what was expected. Any thread.
 inline std::string checkMaterialNames(const std::vector<Material>& all) {
     if (std::string fault = checkUnique("materials", all); !fault.empty()) return fault;
     std::vector<SoundNumber> sounds;
@@ -68,7 +68,7 @@ inline std::string checkMaterialNames(const std::vector<Material>& all) {
     return {};
 }
 
-/// The same of ranges and names. Any thread.
+/// Checks ranges and names: empty, or one such line. Any thread.
 inline std::string validateMaterials(const std::vector<Material>& materials) {
     for (std::size_t i = 0; i < materials.size(); ++i)
         if (std::string fault = checkRanges(materials[i], detail::itemPath("materials", i)); !fault.empty())

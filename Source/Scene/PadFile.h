@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Profiles of game controllers as JSON: properties of their rumble motors, and the source of the figures.
+// Profiles of game controllers as JSON: properties of their rumble motors; and motor commands of a render.
 #pragma once
 #include "Core/Pads/PadMotors.h"
 #include "Core/RenderControl.h"

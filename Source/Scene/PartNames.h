@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Names of the parts of a body that events and actuators carry as numbers, as files write and read them.
+// Names of sounds and of parts of a body, which events and actuators carry as numbers and files as text.
 #pragma once
 #include "Core/CollisionEvent.h"
 #include "Core/EnchanterLayout.h"
@@ -13,9 +13,7 @@
 
 namespace physvib {
 
-// Names by the numbers that events carry instead of them.
-
-/// Names of sounds, or of parts of a body. One thread at a time.
+/// Names of sounds, or of parts of a body, by their numbers. One thread at a time.
 class NumberedNames {
 public:
     /// The name of that number; null if it has none.
@@ -24,7 +22,7 @@ public:
         return isAt(known, number) ? &known->name : nullptr;
     }
 
-    /// A list has no quotes: a name that would not be read again as it is stays out.
+    /// Ignores names that an event list cannot store, because its cells have no quotes.
     void add(int number, std::string_view name) {
         const auto next = placeOf(number);
         if (names_.size() < mostNames && !isAt(next, number) && isPlain(name))
@@ -66,7 +64,7 @@ inline PartNumber partOf(std::string_view name) noexcept {
     return partNamed(name);
 }
 
-/// The names by their numbers. One thread at a time.
+/// The names of parts by their numbers. One thread at a time.
 class PartNames {
 public:
     void add(std::string_view name) {
@@ -106,8 +104,8 @@ inline SoundNumber soundNamed(std::string_view name) noexcept {
     return soundOfMaterial(name);
 }
 
-/// Before events had numbers, clip `k`, from 0 on, was the frequency (k + 1) / 1024 Hz. Gives an event of an
-/// old file its number. Any thread.
+/// Sets the number of the clip that an event of an old file plays: there, clip `k`, from 0 on, was the
+/// frequency (k + 1) / 1024 Hz. Any thread.
 inline void takeFormerClip(CollisionEvent& event) noexcept {
     const double number = event.frequencyHz * 1024.0;
     if (!(number >= 1.0 && number <= mostClips) || number != std::floor(number)) return;
@@ -130,7 +128,7 @@ public:
         for (const auto& material : materials) add(material.name);
     }
 
-    /// Those of a scene's materials, and of the parts of a body that its fixtures are bound to.
+    /// Adds the names of a scene's materials, and of the body parts that its fixtures are bound to.
     template <class Scene>
     void addScene(const Scene& scene) {
         addAll(scene.materials);
@@ -139,7 +137,7 @@ public:
                 if (!fixture.part.empty()) parts.add(fixture.part);
     }
 
-    /// A material whose name would not be read again as it is stays without one.
+    /// Ignores the name of a material that would be read as another sound.
     void add(std::string_view name) {
         if (const SoundNumber sound = soundOfMaterial(name); soundNamed(name) == sound)
             names_.add(sound, name);
@@ -153,7 +151,7 @@ public:
         return std::string{isClip(sound) ? clipNamePrefix : soundNamePrefix} + std::to_string(sound);
     }
 
-    PartNames parts; ///< names of parts of a body: they travel with those of sounds
+    PartNames parts; ///< names of the parts of a body
 
     bool operator==(const SoundNames&) const = default;
 

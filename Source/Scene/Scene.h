@@ -167,16 +167,16 @@ struct JointDescription {
     bool operator==(const JointDescription&) const = default;
 };
 
-// Actions. `isByHand`: the user's own, which a script leaves to a user who plays (sceneForHands).
+// Actions. `isByHand`: a user's input, which is removed from a script when a user plays (sceneForHands).
 // `isLasting`: it changes the scene permanently and not only its motion.
 
-/// Gravity is this vector from now on: a tilt or a shake of the device.
+/// Replaces gravity by this vector: a tilt or a shake of the device.
 struct GravityAction {
     static constexpr bool isByHand = true;
     Vector metresPerSecond2;
     bool operator==(const GravityAction&) const = default;
 };
-/// Gravity is the scene's, turned counter-clockwise: the device is held so from now on.
+/// Replaces gravity by the scene's, turned counter-clockwise, as the device is held.
 struct TiltAction {
     static constexpr bool isByHand = true;
     double angleRadians = 0.0;
@@ -246,7 +246,7 @@ struct SoundAction {
     double decayPerSecond = 0.0;
     bool operator==(const SoundAction&) const = default;
 };
-/// Changes the grains of a material's surface, see Texture: of what passes them from now on.
+/// Changes the grains of a material's surface (see Texture) for later motion.
 struct TextureAction {
     static constexpr bool isLasting = true;
     int material = 0;
@@ -292,7 +292,7 @@ struct JoinAction {
     JointDescription joint;
     bool operator==(const JoinAction&) const = default;
 };
-/// Takes a joint away, of the scene or of a JoinAction. Not in a script.
+/// Removes a joint of the scene or of a JoinAction. Not in a script.
 struct UnjoinAction {
     static constexpr bool isLasting = true;
     std::string joint;
@@ -358,7 +358,7 @@ struct Scene {
     double driveGain = 1.0;         ///< factor on Eq. 5.7, which leaves most impacts near -40 dBFS
     Normalisation normalisation;
     std::vector<Material> materials;
-    std::vector<BodyDescription> bodies; ///< those it starts with; fixture numbers: see sceneCast()
+    std::vector<BodyDescription> bodies; ///< at the start; sceneCast() numbers their fixtures
     std::vector<JointDescription> joints;
     std::vector<ScriptInput> script;  ///< in any order; those of the same step act in this one
     double scriptPeriodSeconds = 0.0; ///< the script repeats after this time; 0: it does not

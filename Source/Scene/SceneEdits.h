@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Scene runs, and live inputs that edit a scene permanently: adding, removing and changing bodies, joints and
-// materials.
+// Scene runs of a session, with their stalls; and actions that edit a scene permanently: they add, remove and
+// change bodies, joints and materials.
 #pragma once
 #include "Scene/Scene.h"
 #include <cstddef>
@@ -71,16 +71,16 @@ void describeEdit(Scene& scene, const Action& action);
 /// True if an action changes the scene permanently and not only its motion. Any thread.
 bool isLasting(const Action& action);
 
-/// How many of them, from the first, can be judged by what they leave: those that put bodies, change some or
-/// remove some, each another one, as what one of these spoils the others do not mend. Any thread.
+/// Number of leading actions that can be validated together: they add, change or remove bodies, each a
+/// different one, so that no action repairs the error of another. Any thread.
 std::size_t takenTogether(std::span<const Action> actions);
 
-/// The same as describeEdit, of one action after the other, with bodies and joints; those that would make the
-/// scene invalid change nothing. Any thread.
+/// Applies one action after the other as describeEdit does, and also adds and removes bodies and joints. An
+/// action that would make the scene invalid changes nothing. Any thread.
 void editScene(Scene& scene, std::span<const Action> actions);
 
-/// The scene of a scene run as its inputs left it, without inputs: added bodies start where they were put,
-/// removed ones are absent (unless a joint holds them or the script needs them). Any thread.
+/// The scene at the end of a scene run, without inputs: added bodies start where they were added, removed
+/// ones are absent (unless a joint holds them or the script needs them). Any thread.
 Scene sceneAsLeft(const SceneRun& take);
 
 /// The scene without scripted user input: pushes, tilts and device orientation; with a player (ScenePlayer),

@@ -172,7 +172,7 @@ namespace {
 constexpr std::size_t headBytes = 1 << 16; // long sessions have hundreds of megabytes; the field begins them
 
 constexpr std::array<std::pair<std::string_view, FileKind>, 4> fields{
-    // a session's desk has a layout, and a plug-in's state a scene
+    // a session's mixer state has a layout, and a plug-in's state a scene
     {{"\"physvib_plugin_state\"", FileKind::pluginState},
      {"\"physvib_session\"", FileKind::session},
      {"\"physvib_scene\"", FileKind::scene},

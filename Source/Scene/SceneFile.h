@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes as JSON, read strictly and written back unchanged.
+// Scenes as JSON, read strictly and written back unchanged; the built-in scenes; and the kind of a file.
 #pragma once
 #include "Io/Disk/Embedded.h"
 #include "Io/Result.h"

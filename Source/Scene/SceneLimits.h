@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Valid ranges of a scene: wider than practical scenes need, but within what Box2D's float arithmetic
-// handles.
+// Valid ranges of a scene, wider than practical scenes need but within what Box2D's float arithmetic handles;
+// and limits of files.
 #pragma once
 #include <cstddef>
 #include <cstdint>
@@ -65,7 +65,7 @@ constexpr std::int64_t maxSessionNs = 1'000'000'000'000'000; // 11.6 days: the l
                                                              // file resolves to the nanosecond
 constexpr std::size_t maxMaterialsFileBytes = 1'000'000;     // 256 materials fill about 40 kB
 constexpr std::size_t maxActuatorFileBytes = 100'000;        // a profile fills less than 1 kB
-constexpr std::size_t maxPadFileBytes = 100'000;             // as of an actuator
+constexpr std::size_t maxPadFileBytes = 100'000;             // like an actuator's
 constexpr std::size_t maxRecordingSets = 1024;               // distinct sets of a session; each is resampled
 constexpr std::size_t maxVariables = 16;                     // of a scene; a study has three
 constexpr std::size_t maxChoices = 64;                       // of a variable

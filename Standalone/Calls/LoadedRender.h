@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One render from its inputs to its events: what the renderer and the outputs need to know.
+// A render job with its loaded inputs (scene, session, clip, layout, actuators, coupling, recordings) and its
+// events, and the values that the renderer and the outputs derive from them.
 #pragma once
 #include "Calls/CallOptions.h"
 #include "Core/Actuators/ActuatorEqualiser.h"
@@ -78,22 +79,22 @@ struct LoadedRender {
     const RenderJob& options;
     std::optional<Scene> scene; ///< none: events come from a list
     LayoutDescription layout;
-    std::optional<SavedSession> session{}; ///< what is rendered again; `scene` is its first take's
+    std::optional<SavedSession> session{}; ///< rendered again; `scene` is that of its first run
     SceneEvents made;
-    FieldSize listField{};                      ///< of the list; not known: it says none, or there is no list
+    FieldSize listField{};                      ///< of the list; unknown: not stated, or no list
     SoundNames listNames{};                     ///< of the materials in the list
     std::vector<ContactRecording> recordings{}; ///< of --sound
     LoadedRecordings sessionRecordings{};       ///< of a session
     ActuatorChoice actuators{};                 ///< by the options; see equalised() and shaping()
     CouplingChoice coupling{};                  ///< by the options
-    std::optional<Clip> clip{};                 ///< what is rendered, if it is no strikes
+    std::optional<Clip> clip{};                 ///< rendered instead of events
 
     /// For messages about events.
     const std::string& source() const {
         return scene ? scene->name : clip ? options.scene : options.fromEvents;
     }
 
-    /// Of the materials and parts.
+    /// Names of materials and parts.
     SoundNames names() const {
         SoundNames all = listNames;
         for (const EnchanterDescription& one : layout.enchanters) all.parts.add(one.part);
@@ -103,7 +104,7 @@ struct LoadedRender {
         return all;
     }
 
-    /// Those that are played instead of modes.
+    /// Recordings that are played instead of modes.
     std::vector<ContactRecording> feltRecordings() const {
         return options.playsRecordings ? recordings : std::vector<ContactRecording>{};
     }
@@ -112,11 +113,11 @@ struct LoadedRender {
         if (session) return session->run;
         return {options.seed, options.stepsPerSecond, options.timing, options.location};
     }
-    /// Whether the session's layouts are kept, or replaced by one of the options.
+    /// True if the session's layouts apply, i.e. no option replaces them.
     bool keepsLayouts() const {
         return session && !options.firstGiven({"--layout", "--law", "--exponent", "--field"});
     }
-    /// Files that are read because others name them: a session its recordings, a layout its actuators.
+    /// Files that are read because others name them: recordings of a session, actuators of a layout.
     std::vector<std::string> namedInputs() const {
         auto paths = session ? recordingPaths(session->log) : std::vector<std::string>{};
         for (const EnchanterDescription& enchanter : layout.enchanters) paths.push_back(enchanter.actuator);
@@ -129,11 +130,11 @@ struct LoadedRender {
         if (clip) return clip->seconds();
         return session ? static_cast<double>(session->lengthNs) * 1e-9 : options.seconds;
     }
-    /// Those of a saved session belong to its actuators: on other layouts they say nothing.
+    /// Gains. A saved session's ceilings belong to its actuators, and do not apply to other layouts.
     std::array<float, limits::maxEnchanters> ceilings() const {
         return keepsLayouts() ? session->ceilings : RendererSettings::fullScale();
     }
-    /// Whether a session's actuators are kept, as its layouts.
+    /// True if the session's actuators apply, as keepsLayouts().
     bool keepsActuators() const {
         return session && !options.firstGiven({"--actuator", "--equalise", "--remap", "--layout"});
     }
@@ -144,7 +145,7 @@ struct LoadedRender {
         return {method(), keepsActuators() ? session->shaping.remap : actuators.remap, gain(), perceived(),
                 truncation()};
     }
-    /// Recordings are played whole, so that one call of a study renders the model and the recording.
+    /// 0 for recordings, which are played whole: one call of a study renders model and recording.
     double truncation() const {
         if (session && !options.isGiven("--gamma")) return session->shaping.truncation;
         return options.playsRecordings ? 0.0 : options.gamma;
@@ -157,14 +158,14 @@ struct LoadedRender {
         return session && !options.isGiven("--perceived-level") ? session->shaping.perceived
                                                                 : PerceivedLevel{options.isWeighted};
     }
-    /// Whether what a session played of recordings is kept: its own method.
+    /// True if the session's recordings apply, i.e. its own method.
     bool keepsRecordings() const { return session && !options.isGiven("--method"); }
     bool isLimited() const { return session ? session->limiterEnabled : options.limiting == Limiting::on; }
     std::int64_t frames() const {
         return std::max<std::int64_t>(1, std::llround(seconds() * options.sampleRateHz));
     }
     std::int64_t endNs() const { return std::llround(seconds() * 1e9); }
-    /// As it is told, else as what is rendered says it; not known: a list that says none.
+    /// The field of the options, else of session, scene or list; unknown if the list does not state one.
     FieldSize saidField() const {
         if (options.field.isKnown()) return options.field;
         if (session) return fieldOf(session->panner);
@@ -177,7 +178,7 @@ struct LoadedRender {
     bool hasGuessedField() const { return !clip && !saidField().isKnown(); }
     double fieldWidthMetres() const { return field().widthMetres; }
     double fieldHeightMetres() const { return field().heightMetres; }
-    /// The wanted method, its fixed level in shares of the enchanters' full scale.
+    /// The requested method, with its fixed level as a share of the actuators' full scale.
     RenderingMethod method() const {
         if (session && !options.isGiven("--method")) return session->shaping.method;
         RenderingMethod wanted = options.method;
@@ -185,7 +186,7 @@ struct LoadedRender {
         wanted.holdsLevel = wanted.fixesAmplitude && options.fixesSum;
         return wanted;
     }
-    /// Of the first enchanter; a fixed level needs it to be that of all.
+    /// Full scale of the first actuator; a fixed level needs it to be that of all.
     double fullScaleG() const { return layout.enchanters.front().fullScaleG; }
     PhantomPanner panner() const {
         if (keepsLayouts()) return session->panner;
@@ -196,8 +197,8 @@ struct LoadedRender {
     }
 };
 
-/// Why the method's fixed level cannot be had, or empty; a warning where it is high. An event has one
-/// amplitude: 1.5 g on every enchanter is one only if their full scales are one.
+/// Why the method's fixed level is impossible, or empty; prints a warning if it is above full scale. An event
+/// has one amplitude, which is 1.5 g on every actuator only if their full scales are equal.
 inline std::string fixedLevelFault(const LoadedRender& job) {
     if (!job.method().fixesAmplitude) return {};
     for (const auto& enchanter : job.layout.enchanters)
@@ -213,12 +214,12 @@ inline std::string fixedLevelFault(const LoadedRender& job) {
     return {};
 }
 
-/// True if the event is one of those that a --sound names.
+/// True if a --sound names the event's material or frequency.
 inline bool isNamedBy(const RecordingFile& file, const CollisionEvent& event) {
     return file.material.empty() ? event.frequencyHz == file.frequencyHz : event.sound == file.sound();
 }
 
-/// What a --sound is for: its file, with the frequency and decay that its events have.
+/// The file of a --sound with the frequency and decay of its events; or one error line.
 inline Result<RecordingFile> recordingOf(const RecordedSound& sound, const LoadedRender& job,
                                          const std::vector<CollisionEvent>& events) {
     RecordingFile file{sound.frequencyHz, sound.path, 0.0, job.options.matchesStrength, {}, sound.material};
@@ -229,7 +230,7 @@ inline Result<RecordingFile> recordingOf(const RecordedSound& sound, const Loade
         return file;
     }
     if (sound.material.empty()) return file;
-    if (job.scene) // nothing met it
+    if (job.scene) // it has no event
         for (const Material& m : job.scene->materials)
             if (m.name == sound.material && m.frequencyHz > 0.0) {
                 file.frequencyHz = m.frequencyHz;
@@ -240,8 +241,8 @@ inline Result<RecordingFile> recordingOf(const RecordedSound& sound, const Loade
                    job.source() + " that vibrates, or a frequency"};
 }
 
-/// Loads what --sound names and makes sure that each of the events (or materials, as events) has one: empty,
-/// or one line. Their notes are the caller's to tell.
+/// Loads the files of --sound, and checks that each of the events (or materials, as events) has one. Empty,
+/// or one error line. The caller prints their notes.
 inline std::string takeRecordings(LoadedRender& job, const std::vector<CollisionEvent>& events,
                                   const std::string& source) {
     for (const RecordedSound& sound : job.options.sounds) {
@@ -262,7 +263,7 @@ inline std::string takeRecordings(LoadedRender& job, const std::vector<Collision
     return {};
 }
 
-/// Takes the saved session that the options name into `job`: exitDone, or the code after a line on stderr.
+/// Loads the saved session into `job`. Returns exitDone, or the exit code after an error line on stderr.
 inline int takeSession(LoadedRender& job) {
     if (const char* own = job.options.firstGiven(
             {"--set", "--seed", "--steps-per-second", "--location", "--timing", "--limiter"}))
@@ -285,8 +286,8 @@ inline int takeSession(LoadedRender& job) {
     return exitDone;
 }
 
-/// Takes the scene that the options name into `job`, with warnings on what it simulates badly: exitDone, or
-/// the code to leave with after a line on stderr.
+/// Loads the scene that the options name into `job`, and prints its warnings. Returns exitDone, or the exit
+/// code after an error line on stderr.
 inline int takeScene(LoadedRender& job) {
     const std::string& name = job.options.scene;
     auto scene = findScene(name, job.options.settings);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A render job as a value: input, rendering options and output files. Calls and buttons make such.
+// A render job as a value: input, rendering options and output files, with checks for conflicting options.
 #pragma once
 #include "Core/EventShaping.h"
 #include "Core/Modes/InstructionSet.h"
@@ -34,7 +34,7 @@ struct RecordedSound {
     double frequencyHz = 0.0; ///< 0: by material
     std::string path;
 
-    std::string name() const; ///< what a call says before the "="
+    std::string name() const; ///< the part of the option before the "="
     bool operator==(const RecordedSound&) const = default;
 };
 using RecordedSounds = std::vector<RecordedSound>;

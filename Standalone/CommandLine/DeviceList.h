@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Audio devices of this machine, for the list of `devices` and the suggestion of `play`; that of a DualSense
-// controller, and the switch of its coils to audio.
+// Audio devices of this machine, as `devices` lists and `play` suggests them; the device of a DualSense
+// controller, and the report that switches its coils to audio.
 #pragma once
 #include "Io/Result.h"
 #include "Live/Devices/AudioDevice.h"

@@ -40,7 +40,7 @@ struct Option {
     std::string range;                                ///< valid values: "0 to 1", "{on,off}"; empty: any
     std::vector<std::string> choices;                 ///< all valid values, or some built-in ones
     std::vector<std::pair<std::string, int>> numbers; ///< words and numbers of a function target
-    std::string instead; ///< of a deprecated option, which is said once on standard error; empty: it stays
+    std::string instead; ///< for a deprecated option, printed once on stderr; empty: not deprecated
     double low = 0.0, high = 0.0;
     enum class Check { none, range, positive, choice, number, folder, ending } check = Check::none;
     bool isPlace = false, isRequired = false, isWritten = false, isSingle = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// System interface of the programs: start, standard streams, signals, child processes, exit codes and end.
-// Implemented per system in ProcessPosix.cpp and ProcessWindows.cpp.
+// System interface of the programs: start, standard streams without blocking, signals, child processes, exit
+// codes and end. Process*.cpp and StandardStreams.cpp implement it.
 #pragma once
 #include "Io/Result.h"
 #include "Io/Text/CleanText.h"
@@ -61,10 +61,10 @@ std::optional<std::size_t> readInput(std::span<char> bytes, int milliseconds) no
 /// start. Any thread but the render thread.
 Result<bool> runProgram(std::string name, std::vector<std::string> arguments);
 
-/// Runs a program that says on standard error only what is wrong: empty if it exited with 0, or one line why
-/// not, its own last one if there is one; or why it could not start. It is ended when `keepGoing`, asked ten
-/// times a second, returns false. On Windows its words go to our standard error, and it is waited for. Any
-/// thread but the render thread.
+/// Runs a program that prints only errors on standard error. Returns an empty string if it exited with 0, its
+/// last line or the reason if not, or an error if it could not start. It is ended when `keepGoing`, called
+/// ten times a second, returns false. On Windows it prints to our standard error and is not ended. Any thread
+/// but the render thread.
 Result<std::string> runWatched(std::string name, std::vector<std::string> arguments,
                                const std::function<bool()>& keepGoing);
 

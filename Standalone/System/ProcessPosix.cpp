@@ -62,7 +62,7 @@ void beginProcess() {
     openStandardDescriptors();
     std::signal(SIGXFSZ, SIG_IGN);
     catchEnding(endBySignal, KeepIgnored::all);
-    rlimit stack{}; // of 128 kB renders need most, and beyond its end nothing can be said
+    rlimit stack{}; // renders need most of 128 kB; an overflow could not be reported
     if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < 128 * 1024)
         std::cerr << "physvib: ulimit -s: expected at least 128\n", std::_Exit(1);
 }
@@ -125,7 +125,7 @@ Result<std::string> runWatched(std::string name, std::vector<std::string> argume
         poll(&words, 1, lookMs);
         const pid_t ended = waitpid(child.value, &status, WNOHANG);
         hasEnded = ended != 0;
-        isTold = ended == child.value; // not if whoever started us has children's ends ignored
+        isTold = ended == child.value; // false if the parent process had SIGCHLD ignored
         std::array<char, 1024> some{};
         while (poll(&words, 1, 0) > 0) {
             const ssize_t count = read(ends[0], some.data(), some.size());
@@ -133,7 +133,8 @@ Result<std::string> runWatched(std::string name, std::vector<std::string> argume
             said.append(some.data(), static_cast<std::size_t>(count));
             if (said.size() > mostKept) said.erase(0, said.size() - mostKept);
         }
-        if ((words.revents & POLLHUP) != 0 && !hasEnded) poll(nullptr, 0, lookMs / 10); // it said all
+        if ((words.revents & POLLHUP) != 0 && !hasEnded)
+            poll(nullptr, 0, lookMs / 10); // all its output was read
         if (isWanted && !keepGoing()) {
             isWanted = false;
             kill(child.value, SIGKILL);

@@ -48,9 +48,9 @@ struct ChartAxis {
         }
         return axis;
     }
-    static ChartAxis logarithmic(double least, double most) {
+    static ChartAxis logarithmic(double least, double most) { // with a margin of 15 % at both ends
         ChartAxis axis{least / 1.15, most * 1.15, true, {}};
-        const bool isWide = axis.most / axis.least > 300.0;
+        const bool isWide = axis.most / axis.least > 300.0; // then ticks at powers of ten only
         for (int power = static_cast<int>(std::floor(std::log10(axis.least)));
              power <= static_cast<int>(std::ceil(std::log10(axis.most))); ++power)
             for (const double digit : {1.0, 2.0, 5.0}) {
@@ -168,7 +168,7 @@ void drawLegend(Svg& svg, const std::vector<LegendItem>& items, ChartPoint corne
 /// Breaks text into lines of at most `width`. Any thread (allocates).
 std::vector<std::string> wrapped(std::string_view words, double width, double size);
 
-/// What the title at the top takes, in lines.
+/// Height of the title in pixels, by its number of lines.
 double titleHeight(const std::string& title, double width);
 
 /// The widest of these. Any thread.

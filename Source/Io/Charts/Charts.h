@@ -18,7 +18,7 @@ struct ChartFrame {
 
 /// A value with its interval.
 struct ChartValue {
-    double value = 0.0, least = 0.0, most = 0.0; ///< all alike: no interval is drawn
+    double value = 0.0, least = 0.0, most = 0.0; ///< all equal: no interval is drawn
 
     static ChartValue around(double value, double halfInterval = 0.0) noexcept {
         return {value, value - halfInterval, value + halfInterval};
@@ -38,7 +38,7 @@ struct BarChart {
     std::optional<std::pair<double, std::string>> reference{}; ///< a line across all groups, and its label
     std::vector<double> ceilings{};                            ///< per group: the maximum possible value
     std::string ceilingWords{};
-    double least = 0.0;           ///< where bars and the axis begin; the axis also below, as values are
+    double least = 0.0;           ///< where bars begin; the axis begins lower if values do
     std::optional<double> most{}; ///< end of the axis; nullopt: from the values
 
     /// One more bar of a chart of one series.

@@ -55,7 +55,7 @@ struct GridDrawing {
         if (hasInterval)
             svg.text({x, y + 12.0}, intervalOf(index), {9.0, Anchor::middle, 0.0, false, colour});
     }
-    /// Cut where shares end.
+    /// The interval as text, clamped to the possible values.
     std::string intervalOf(std::size_t index) const {
         const double value = *chart.values[index], half = chart.halfIntervals[index];
         const auto words = [&](double end) {
@@ -206,7 +206,7 @@ struct PlaceDrawing {
             svg.text({place.x, place.y + 3.0}, words, {8.5, Anchor::middle});
         }
     }
-    /// Targets as crosses, with lines to where they were felt.
+    /// Draws targets as crosses, with lines to the indicated places.
     void targets() const {
         for (const PlaceEllipse& e : chart.ellipses)
             if (e.target < chart.targets.size())

@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 using Lock = SystemFile::Lock;
 
-constexpr const char* suffix = ".physvib.part"; // this program's own: what is left under it may be removed
+constexpr const char* suffix = ".physvib.part"; // only this program uses it, so leftovers may be removed
 constexpr const char* beingWritten = "it is being written already, here or by another program";
 constexpr const char* inTheWay = "another program is writing it, or left its temporary file: ";
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Checks whether two paths are the same file, and whether a path leaves its folder, whatever their spelling.
+// Checks of paths: whether two are the same file, whether one leaves its folder, and file name extensions.
 #pragma once
 #include "Io/Text/NameList.h"
 #include "Io/Text/NumberText.h"

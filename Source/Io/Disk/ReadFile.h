@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads a whole file as text, or returns a one-line error.
+// Reads a whole file as text, or opens a regular file; and the size limits of files that are read.
 #pragma once
 #include "Io/Disk/SystemFile.h"
 #include "Io/Result.h"

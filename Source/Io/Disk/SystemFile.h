@@ -59,8 +59,8 @@ public:
     /// True if `path` names this very file, not through a link.
     bool isAt(const std::filesystem::path& path) const noexcept;
 
-    /// Empty, or what others did to a file that was placed at `path`, or where a link there leads, and that
-    /// has `bytes`: removed or replaced it, or changed its length.
+    /// Empty, or how another program changed this file, which is at `path` or where a link there leads and
+    /// had `bytes` bytes: it was removed or replaced, or its length changed.
     std::string changeByOthers(const std::filesystem::path& path, std::int64_t bytes);
 
     /// Copies permissions from `path`. Best effort: another owner's permissions cannot always be copied, and

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Objects from JSON and back by their tables (FieldTable.h). Strict: unknown fields are refused before any
-// value is read, and ranges are checked as it is. For the .cpp files of modules with files.
+// Reads and writes objects as JSON by their tables (FieldTable.h). Unknown fields are refused before any
+// value is read; ranges are checked while reading. For the .cpp files of modules with files.
 //
-// A module may have kinds of its own, with readKind(json, kind) and writeKind(kind, value).
+// A module can add kinds: readKind(json, kind) and writeKind(kind, value).
 #pragma once
 #include "Io/Json/FieldTable.h"
 #include "Io/Json/JsonField.h"
@@ -14,7 +14,7 @@
 
 namespace physvib {
 
-/// The value of a field of that kind.
+/// Reads the value of a field of that kind; throws JsonError.
 template <class Kind>
 auto readAs(const JsonField& json, const Kind& kind) {
     if constexpr (requires { kind(json); })
@@ -40,7 +40,7 @@ OrderedJson writeAs(const Kind& kind, const Value& value) {
 //   part(name, Need)                 a list that is read and written apart: it only has its place here
 // and may read v.object, in which the fields before are known.
 
-/// Checks the version, and finds what an object may have.
+/// Checks the version, and collects the fields that an object may have.
 template <class T>
 struct FieldNames {
     const JsonField& json;

@@ -17,13 +17,14 @@ namespace physvib {
 template <class T>
 struct FieldsOf {};
 
-/// Every field of `object` after a table: its own, unless told. Throws JsonError. FieldJson.h has them.
+/// Reads and writes every field of `object` by the table of T, or another one; throws JsonError. In
+/// FieldJson.h.
 template <class T, class Table = T>
 void readTable(const class JsonField& json, T& object);
 template <class T, class Table = T>
 nlohmann::ordered_json writeTable(const T& object);
 
-/// Whether a file may leave a field out. What is left out has the struct's default.
+/// Whether a file may leave a field out, which then has the struct's default.
 struct Need {
     bool mayBeLeftOut = false, isAlwaysWritten = true;
     int since = 1; ///< the version of the format that brought the field
@@ -32,24 +33,24 @@ struct Need {
     static const Need filled;   ///< always written
     static const Need optional; ///< written unless it has its default
 
-    /// The same of a field that older files lack.
+    /// The same for a field that files before `version` lack.
     constexpr Need from(int version) const { return {true, isAlwaysWritten, version}; }
     bool operator==(const Need&) const = default;
 };
 inline constexpr Need Need::required{}, Need::filled{true}, Need::optional{true, false};
 
-/// A member of a member, as the place of a field.
+/// The accessor of a member's member, for a field.
 constexpr auto in(auto outer, auto inner) {
     return [=](auto& object) -> auto& { return std::invoke(inner, std::invoke(outer, object)); };
 }
 
-/// Two members as one place.
+/// The accessor of two members, for one field.
 constexpr auto both(auto first, auto second) {
     return [=](auto& object) { return std::tie(std::invoke(first, object), std::invoke(second, object)); };
 }
 
-/// What a field may be. A kind is called with a JsonField and returns its value; if the value is spelled
-/// otherwise in files, write() does that.
+/// Kinds of field values. A kind is called with a JsonField and returns the value; its write() converts the
+/// value back if files spell it differently.
 namespace kinds {
 
 inline constexpr auto truth = [](const auto& json) { return json.truth(); };
@@ -71,7 +72,7 @@ constexpr auto whole(int least, int most) {
     return [=](const auto& json) { return json.wholeWithin(least, most); };
 }
 
-/// A number from 0 on that files count from 1. The range is that of files.
+/// An index from 0 that files count from 1; the range is that in files.
 struct FromOne {
     int least, most;
     int operator()(const auto& json) const { return static_cast<int>(json.numberWithin(least, most)) - 1; }
@@ -96,7 +97,7 @@ struct Object {
     auto write(const T& object) const { return writeTable(object); }
 };
 
-/// A list of them.
+/// A list of structs by their table.
 template <class T>
 struct Objects {
     std::size_t most = std::numeric_limits<std::size_t>::max();
@@ -117,7 +118,7 @@ struct Objects {
 
 } // namespace kinds
 
-/// What readKind() and writeKind() of the module read and write: a T, or one with an item per channel.
+/// Kinds that the module's readKind() and writeKind() convert: a T, or a T with an item per channel.
 template <class T>
 struct Own {};
 template <class T>

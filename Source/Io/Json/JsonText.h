@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Common entry for reading JSON texts, with a size limit and strict parsing, and the version check of
-// PhysVib's own files. For .cpp files that read JSON.
+// Reads JSON texts with a size limit, checks the version of PhysVib's own files, and formats JSON for people.
+// For .cpp files that read or write JSON.
 #pragma once
 #include "Io/Json/JsonField.h"
 #include "Io/Result.h"

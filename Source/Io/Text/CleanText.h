@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes untrusted text safe to display as one line of UTF-8 in a terminal, log or window.
+// Makes untrusted text safe to display as one line of UTF-8; decoding of UTF-8, and lower case.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Conversion between numbers and text, the same in every locale, and quoting of untrusted text for error
-// messages.
+// Conversion between numbers and text, the same in every locale; ordering of texts by the numbers in them;
+// and quoting of untrusted text for error messages.
 #pragma once
 #include <algorithm>
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A text as a QR code. Who includes it links the generator of QR codes: the mixer and the page.
+// A text as a QR code. Programs that include this link the library qrcodegen.
 #pragma once
 #include <cstdint>
 #include <qrcodegen.h>
@@ -10,7 +10,7 @@ namespace physvib {
 /// Any thread.
 class QrCode {
 public:
-    static constexpr int quietModules = 4; ///< light ones that a reader wants around it
+    static constexpr int quietModules = 4; ///< light modules around the code that readers need
 
     explicit QrCode(const std::string& text) {
         std::string scratch(qrcodegen_BUFFER_LEN_MAX, '\0');

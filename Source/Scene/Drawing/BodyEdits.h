@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Editor operations on existing bodies (size, place, joints, copies), each as the actions of one edit.
+// Editor operations on bodies (size, place, joints, copies), each as the actions of one edit; new scenes; and
+// bodies from drawn points.
 #pragma once
 #include "Core/PortableMath.h"
 #include "Io/Result.h"
@@ -33,22 +34,23 @@ void setDensity(BodyDescription& body, double kgPerSquareMetre);
 /// Makes a body a haptic source, or not. A line gets the mass that Eq. 5.4 needs, if it has none. Any thread.
 void setSource(const Scene& scene, BodyDescription& body, bool isSource);
 
-/// Any part of it is one. Any thread.
+/// True if any fixture of the body is a haptic source. Any thread.
 bool isSource(const BodyDescription& body);
 
 /// Makes a body static, at rest, or dynamic. A line stays static. Any thread.
 void setMoving(BodyDescription& body, bool moves);
 
-/// Moves bodies, at rest, with their joints; bodies joined to them return to their start. Any thread.
+/// Actions that move bodies, at rest, with their joints; bodies joined to them return to their start. Any
+/// thread.
 std::vector<Action> movedTo(const SceneDrawing& drawing, const std::map<std::string, BodyPlace>& places);
 
-/// Changes a body and keeps its place and motion. Any thread.
+/// The action that changes a body and keeps its place and motion. Any thread.
 Action changed(BodyDescription body);
 
-/// Removes bodies and their joints. Any thread.
+/// Actions that remove bodies and their joints. Any thread.
 std::vector<Action> erased(const SceneDrawing& drawing, const std::vector<std::string>& names);
 
-/// The scene without these bodies, their joints, and what its script does to either. Any thread.
+/// The scene without these bodies, their joints, and script inputs for either. Any thread.
 Scene without(Scene scene, const std::vector<std::string>& names);
 
 /// Copied bodies and the joints between them. Any thread.
@@ -57,7 +59,7 @@ struct Copied {
     std::vector<JointDescription> joints;
 };
 Copied copied(const SceneDrawing& drawing, const std::vector<std::string>& names);
-/// Inserts the copy, shifted by `beside`, under new names, which are appended to `names`.
+/// Actions that insert the copy, shifted by `beside` (m), under new names, which are appended to `names`.
 std::vector<Action> pasted(const SceneDrawing& drawing, const Copied& copy, const Vector& beside,
                            std::vector<std::string>& names);
 
@@ -96,7 +98,7 @@ Result<std::vector<Action>> sprung(const SceneDrawing& drawing, const std::strin
 /// The drawn scene with its bodies at their present places; joints keep their points on them. Any thread.
 Scene sceneNow(const Scene& drawn, const PoseNow& now);
 
-/// Field, gravity, materials and names alone. Any thread.
+/// The scene with its field, gravity, materials and names alone. Any thread.
 Scene emptied(Scene scene);
 
 enum class SceneGround { empty, box, floor };
@@ -105,9 +107,8 @@ enum class SceneGround { empty, box, floor };
 /// material that vibrates; without one, of its first material, and not felt. Any thread.
 Scene newScene(const Scene& like, SceneGround ground);
 
-// Creates body descriptions from points drawn in the field, without a name and with material 0.
-
-// One-line error if the body would be too small. Places in metres of the field. Any thread.
+// Body descriptions from points drawn in the field, in metres, without a name and with material 0; or one
+// error line if the body would be too small. Any thread.
 
 Result<BodyDescription> drawnBall(const Vector& centre, const Vector& rim);
 Result<BodyDescription> drawnBox(const Vector& corner, const Vector& opposite);

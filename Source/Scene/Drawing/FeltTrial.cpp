@@ -15,7 +15,7 @@ namespace {
 
 constexpr int stepsPerSecond = 100; // as the mixer plays
 constexpr double usualSeconds = 0.5, standardGravity = 9.81;
-// of a material that no table knows: a dull, short sound that every actuator plays
+// the default for a material in no table: a dull, short sound that every actuator plays
 constexpr double plainHertz = 165.0, plainDecayPerSecond = 22.0;
 
 struct Surface {
@@ -26,7 +26,7 @@ struct Surface {
 
 bool isFixed(const BodyDescription& body) { return body.type != BodyType::dynamicBody; }
 
-/// Of bodies that it can meet. Two bodies that are fixed never meet.
+/// The bodies that it can hit. Two fixed bodies never meet.
 std::vector<Surface> surfacesOf(const Scene& scene, const BodyDescription& body) {
     std::vector<Surface> all;
     for (const BodyDescription& other : scene.bodies)
@@ -39,7 +39,7 @@ std::vector<Surface> surfacesOf(const Scene& scene, const BodyDescription& body)
     return all;
 }
 
-/// Sources of a material without a sound are no valid scene, and not felt.
+/// False if a haptic source has a material without a sound: such a scene is invalid, and does not vibrate.
 bool isPlayable(const Scene& scene) { return validate(scene).empty(); }
 
 ContactCounts countsOf(const Scene& scene, BodyDescription body, const Surface& surface) {

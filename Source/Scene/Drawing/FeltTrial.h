@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tries whether a body of a scene is felt at usual impacts, before anybody waits for one.
+// Simulates usual impacts of a body, to explain in an editor why it would cause no vibration.
 #pragma once
 #include "Scene/Scene.h"
 #include <string>
@@ -7,21 +7,21 @@
 
 namespace physvib {
 
-/// Why a body is not felt when it meets what the scene has, at the speed of a fall from a third of the
-/// field's height: the explanation of a world that has no more than both, in names of the mixer's controls.
-/// Empty: it is felt. A body that moves, alone in its scene, meets a floor of its own material; of a body
-/// that is fixed nothing is said before something moves. Any thread; takes milliseconds.
+/// Why a body causes no vibration when it hits the scene's other bodies, at the speed of a fall from a third
+/// of the field's height, in names of the mixer's controls. Empty: it vibrates, or it is fixed and nothing
+/// else moves. A moving body that is alone in its scene hits a floor of its own material. Any thread; takes
+/// milliseconds.
 std::string whyNotFelt(const Scene& scene, const BodyDescription& body);
 
 /// The same for a ball that is drawn with this material; see startsAsSource().
 std::string whyNotFelt(const Scene& scene, int material);
 
-/// What makes the body felt in this scene: the first material that vibrates in place of those that do not,
-/// and the body as a haptic source. Empty: it has both, or no material vibrates. Any thread.
+/// Actions after which the body causes vibrations: the first material that vibrates replaces those that do
+/// not, and the body becomes a haptic source. Empty: it has both, or no material vibrates. Any thread.
 std::vector<Action> feltChanges(const Scene& scene, const BodyDescription& body);
 
-/// The scene with a sound for a material that has none: that of the built-in tables by its name, else a plain
-/// one. An input cannot do this, since it could not be taken back.
+/// The scene with a sound for a material that has none: that of its name in the built-in tables, else a
+/// default one. An input does not do this, because it could not be undone.
 Scene withSound(Scene scene, int material);
 
 } // namespace physvib

@@ -15,7 +15,7 @@ namespace physvib {
 /// A body's present pose; nullopt: as drawn.
 using PoseNow = std::function<std::optional<BodyPose>(const std::string& body)>;
 
-/// A pose as a scene can hold it, whole turns less if there are too many; nullopt: it is too far away.
+/// The pose within the limits of a scene, with whole turns removed if necessary; nullopt: it is too far away.
 std::optional<BodyPose> drawable(BodyPose pose);
 
 /// One thread at a time.
@@ -37,7 +37,7 @@ public:
     void take(std::span<const Action> actions);
     void take(const Action& action) { take({&action, 1}); }
 
-    /// The actions that would undo it. A removed body returns to its present place.
+    /// The actions that undo `action`. A removed body returns to its present place.
     std::vector<Action> undoOf(const Action& action, const PoseNow& now) const;
 
     const BodyDescription* find(std::string_view body) const noexcept; ///< in drawn(); nullptr: none

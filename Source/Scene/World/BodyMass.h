@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Mass, centre and inertia of a scene's bodies.
+// Mass, centre and inertia of bodies; area, centroid, inertia, extents and insets of their shapes.
 #pragma once
 #include "Scene/Scene.h"
 #include <vector>
@@ -18,9 +18,7 @@ BodyMoments bodyMoments(const BodyDescription& body, const Scene& scene) noexcep
 /// Mass for Eq. 5.4, kg: the one it states, else by density and area. Any thread.
 double massKg(const BodyDescription& body, const Scene& scene) noexcept;
 
-// Area, centroid, inertia and extents of shapes.
-
-/// Of a shape of constant thickness, in its own coordinates. Area 0: it has no mass (chains).
+/// Moments of a shape of constant thickness, in its own coordinates. Area 0: it has no mass (chains).
 struct ShapeMoments {
     double areaSquareMetres = 0.0;
     Vector centroidMetres;
@@ -37,7 +35,7 @@ double lengthMetres(const Shape& shape) noexcept;
 /// True if the vertices go round a strictly convex outline once, counter-clockwise.
 bool isConvexCounterClockwise(const std::vector<Vector>& vertices) noexcept;
 
-/// The part of a convex, counter-clockwise outline that is at least `margin` inside; empty if nothing is.
+/// The part of a convex, counter-clockwise outline that is at least `margin` m inside; empty if nothing is.
 std::vector<Vector> inset(const std::vector<Vector>& outline, double margin);
 
 } // namespace physvib

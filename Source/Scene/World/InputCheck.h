@@ -19,11 +19,11 @@ public:
     /// may hold, or endless.
     explicit InputCheck(const Scene& scene, std::size_t most = sceneLimits::maxLiveInputs);
 
-    /// Empty, and the input is taken into account for later ones; or the error, as of validate(). Costs as
-    /// much as validate() of the scene with its spawned bodies. A removed body may still be named, without
+    /// Empty, and later inputs are checked with this one in effect; or the error, as from validate(). Costs
+    /// as much as validate() of the scene with its spawned bodies. A removed body may still be named, without
     /// effect; with endless inputs only the newest `remembered` ones.
     std::string take(const Action& action) { return take(std::span{&action, 1}); }
-    /// The same of several, in order: all of them or none.
+    /// Accepts several inputs in order, all of them or none.
     std::string take(std::span<const Action> actions);
 
     static constexpr std::size_t remembered = 64; ///< an installation may spawn and remove for months

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Creates Box2D bodies, fixtures and joints from a scene's descriptions.
+// Creates Box2D bodies, fixtures and joints from a scene's descriptions; start states with or without jitter.
 #pragma once
 #include "Scene/Scene.h"
 #include <box2d/box2d.h>
@@ -8,8 +8,7 @@
 
 namespace physvib {
 
-// Start state of a body: as described, or with the small jitter that a seed adds.
-
+/// Start state of a body: as described, or with the small jitter that a seed adds.
 struct BodyStart {
     Vector positionMetres;
     double angleRadians = 0.0;

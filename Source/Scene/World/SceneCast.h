@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All bodies that a scene can have, numbered as in the fixture numbers of events.
+// All bodies that a scene can have, in the order in which events number their fixtures; and their paths in
+// the scene file, for error messages.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/SceneRanges.h"
@@ -27,8 +28,8 @@ inline std::vector<BodyDescription> scriptedCast(const Scene& scene) {
     return cast;
 }
 
-/// The same and what live inputs spawn or change, in their order. Fixture numbers in events count through the
-/// fixtures of this list.
+/// These, then the bodies that live inputs spawn or change, in their order. Fixture numbers in events count
+/// through the fixtures of this list.
 inline std::vector<BodyDescription> sceneCast(const Scene& scene) {
     std::vector<BodyDescription> cast = scriptedCast(scene);
     for (const LiveInput& input : scene.inputs)
@@ -44,8 +45,6 @@ inline std::size_t bodyOfFixture(const std::vector<BodyDescription>& cast, int f
     while (body < cast.size() && left >= cast[body].fixtures.size()) left -= cast[body++].fixtures.size();
     return body;
 }
-
-// Lists all bodies that a scene describes, with their paths in the file for error messages.
 
 /// A body of the scene, of its script or of its live inputs.
 struct PlacedBody {

@@ -7,7 +7,7 @@
 namespace physvib {
 namespace {
 
-constexpr double reachSeconds = 0.1;    // time to reach the mouse, if that is near
+constexpr double reachSeconds = 0.1;    // time to reach a mouse that is near
 constexpr double steepestRadians = 0.5; // tilt at which the moved body has full speed
 constexpr double leastChange = 0.05;    // m/s: a smaller change gives no input
 

@@ -22,9 +22,9 @@ public:
     bool drives() const noexcept { return !wheels_.empty(); }
     const std::string& body() const noexcept { return body_; } ///< the moved body
 
-    /// A key to the left (-1) or right (1), or stop (0). A key against the present direction stops, too.
+    /// The actions of a key to the left (-1) or right (1), or of a stop (0). A key against the motion stops.
     std::vector<Action> steer(int way);
-    /// Moves the body, whose middle is at `fromMetres`, towards that place; call a few times a second.
+    /// Moves the body, whose middle is at x = `fromMetres`, to x = `toMetres`; call a few times a second.
     std::vector<Action> moveTowards(double toMetres, double fromMetres);
     /// Device held at that angle (counter-clockwise): the body slides down, faster with the angle.
     std::vector<Action> tilt(double angleRadians);

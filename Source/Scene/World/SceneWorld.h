@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The Box2D world of a scene, and the effects of scripted and live actions on it.
+// The Box2D world of a scene with scripted and live actions, and its parts: step clock, script, contact
+// limit, grips of hands, poses.
 #pragma once
 #include "Scene/Scene.h"
 #include "Scene/SceneLimits.h"
@@ -18,9 +19,8 @@
 
 namespace physvib {
 
-// World time as a step count, so that no rounding accumulates.
-
-/// Times of the steps of a world that runs at `stepsPerSecond` (> 0).
+/// Times of the steps of a world that runs at `stepsPerSecond` (> 0); world time is a step count, so that no
+/// rounding accumulates.
 struct StepClock {
     int stepsPerSecond = 100;
 
@@ -39,8 +39,6 @@ struct StepClock {
         return static_cast<std::int64_t>(std::ceil(seconds * stepsPerSecond - rounding));
     }
 };
-
-// A scene's script by step index: the same inputs act in the same steps at any speed.
 
 /// An action that is due; `repetition` counts an input's repetitions from 0.
 struct DueAction {
@@ -87,8 +85,8 @@ private:
     std::size_t next_ = 0;
 };
 
-/// From a world time on the script is at a time of its own, and runs at that rate, as do the motors of
-/// joints: by the scene at 1.
+/// From world time `fromSeconds` on, the script continues at `scriptSeconds` and runs at `rate`, as do the
+/// motors of joints. The scene's own rate is 1.
 struct ScriptPace {
     double fromSeconds = 0.0, scriptSeconds = 0.0, rate = 1.0;
 
@@ -244,7 +242,7 @@ public:
     /// Adds a valid input (see InputCheck) that acts in `step`, or once earlier ones have acted.
     void addInput(std::int64_t step, Action action);
 
-    /// From the first step on that begins at or after it; in the order of their times.
+    /// Applies `pace` from the first step that begins at or after its time; call in the order of their times.
     void pace(const ScriptPace& pace) { paces_.push_back(pace); }
 
     /// Executes the live inputs, then the script's actions, that are due in `step`. True if a fixture may be
@@ -257,7 +255,7 @@ public:
 
     b2World& world() noexcept { return world_; }
 
-    /// How often bodies passed through each other because of the limit of contacts.
+    /// Number of pairs that passed through each other because of the limit of contacts.
     std::uint64_t contactsRefused() const noexcept { return bound_.refused(); }
 
     const Scene& scene() const noexcept { return scene_; } ///< with all inputs so far, but those forgotten
@@ -265,9 +263,9 @@ public:
     /// Bodies so far; numbers as in sceneCast().
     std::size_t bodyCount() const noexcept { return nextBody_; }
     std::size_t bodiesInBox2d() const noexcept { return bodies_.size(); }
-    BodyPose pose(std::size_t body) const noexcept; ///< of a removed body: not present
+    BodyPose pose(std::size_t body) const noexcept; ///< a removed body is not present
     std::vector<JointPose> jointPoses() const;      ///< in the order of their names
-    /// Calls `use` with number and pose of those that Box2D has, in the order of their numbers.
+    /// Calls `use` with number and pose of every body in Box2D's world, in the order of their numbers.
     template <class Use>
     void forAllBodies(Use use) const {
         for (const auto& [number, body] : bodies_) use(number, poseOf(*body.body));
@@ -330,13 +328,13 @@ private:
     std::mt19937 random_;
     SceneScript script_;
     ScriptPace pace_;
-    std::vector<ScriptPace> paces_; // that are to come
+    std::vector<ScriptPace> paces_; // that begin later
     Vector gravity_;                // before hold_
     HoldAction hold_;
     b2World world_;
     ContactBound bound_{world_};
     SceneGrips grips_{world_, clock_};
-    std::vector<Material> materials_;    // with the sounds and textures of now
+    std::vector<Material> materials_;    // with their present sounds and textures
     std::map<std::size_t, Body> bodies_; // by number
     std::vector<const Body*> belts_;     // of them
     // numbers; below scripted_ stands scriptedCast()

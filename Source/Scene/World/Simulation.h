@@ -37,7 +37,7 @@ public:
     /// `timeSeconds`, or in the next one if that is past, or when those added before it have acted.
     void addInput(double timeSeconds, Action action);
 
-    /// Is in no scene().
+    /// Changes the script's pace (see SceneWorld); not recorded in scene().
     void pace(const ScriptPace& pace) { world_.pace(pace); }
 
     /// The scene with all inputs so far: a simulation of it, with the same seed and rate, repeats everything.
@@ -103,12 +103,12 @@ struct SceneEvents {
 /// Called before the first step of a scene run and after each step, with the session time; false stops.
 using StepWatch = std::function<bool(std::int64_t timeNs)>;
 
-/// M only. Throws what Simulation throws.
+/// The collisions of a scene from its start. M only. Throws what Simulation throws.
 SceneEvents runScene(const Scene& scene, const RunSettings& run, std::int64_t endNs,
                      const StepWatch& keepGoing = {});
 
-/// Recomputes a session's events in session time: of each scene run to its end, of the last one all before
-/// `endNs`. `run` gives the step rate; seeds are the scene runs' own. M only. Throws what Simulation throws.
+/// Recomputes a session's events in session time: each scene run to its end, the last one up to `endNs`.
+/// `run` gives the step rate; seeds are the scene runs' own. M only. Throws what Simulation throws.
 SceneEvents runTakes(std::span<const SceneRun> takes, const RunSettings& run, std::int64_t endNs,
                      const StepWatch& keepGoing = {});
 

@@ -104,14 +104,14 @@ public:
         setLevel(static_cast<float>(fromDecibels(levelDb)));
         tell({0, startNs, 0, sampleRateHz});
     }
-    /// False: interrupted.
+    /// Waits for that session time; false if interrupted.
     bool await(std::int64_t timeNs) const {
         return waitFor([&] { return BoardLink::nowNs() > startNs + timeNs; });
     }
     const std::int64_t startNs;
 
 private:
-    static constexpr int sampleRateHz = 48000; // of the device that it is instead of
+    static constexpr int sampleRateHz = 48000; // as if there were a device
 };
 
 /// Reports events outside the field. Returns false after an error line if nothing can be felt.
@@ -128,7 +128,7 @@ bool tellWhatIsFelt(const BoardOptions& o, const std::vector<CollisionEvent>& ev
     return silent.empty();
 }
 
-/// Until its end, or until it is 60 dB weaker: less than a step of the board's converters.
+/// Time until the event ends, or is 60 dB weaker: less than a step of the board's converters.
 std::int64_t feltNs(const CollisionEvent& e) {
     constexpr double slowest = 1.0 / limits::board::gridPerHz;
     return e.decayPerSecond > 0.0

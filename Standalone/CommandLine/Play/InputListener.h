@@ -15,8 +15,7 @@
 
 namespace physvib {
 
-// Splits a byte stream into lines. Overlong lines are discarded, except that "silence" in them is reported.
-
+/// Splits a byte stream into lines. Overlong lines are discarded, except that "silence" in them is reported.
 /// `take(std::string_view line, bool isWhole)` is called once per line. For a line longer than `longest`,
 /// isWhole is false and the line is "silence" if it contains that word, else empty. One thread at a time.
 class LineCutter {

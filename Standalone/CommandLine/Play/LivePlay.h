@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Plays a live session on a device until its duration is over or the user interrupts, with all its inputs and
-// sinks.
+// Plays a live session on a device until its duration is over or the user interrupts: its settings, beats of
+// the input, and sound files.
 #pragma once
 #include "Calls/LoadedRender.h"
 #include "Host/Music/BeatDetector.h"
@@ -22,8 +22,8 @@
 
 namespace physvib {
 
-/// A beat has the session time at which it was heard, so it is felt one output latency later. If the output
-/// latency is shorter than the detector's delay, every beat is late. Runs on its own thread.
+/// Detects beats in the input and submits an event for each, at the session time of the beat: it is played
+/// one output latency later, or late if the latency is shorter than the detector's delay. Has its own thread.
 class LiveBeats {
 public:
     /// Time that the output latency must cover in addition to a block and the limiter, i.e. ClockLaw's

@@ -23,7 +23,7 @@ namespace {
 /// Options of the scene, and of the output.
 struct PlayOptions {
     RenderJob scene;
-    LivePlay live; ///< what options set as it is played
+    LivePlay live; ///< settings of the playback
     std::string device;
     std::string board;             ///< serial port of a four-channel board, alone or in addition to a device
     std::vector<std::string> pads; ///< game controllers: auto or a name, optionally with @PROFILE; alone or
@@ -43,7 +43,7 @@ struct PlayOptions {
     int blockFrames = 0;                ///< 0: device default
 };
 
-/// "1,2,3" to {0, 1, 2}; an empty text gives an empty map. The fault of any other text.
+/// "1,2,3" to {0, 1, 2}; an empty text gives an empty map, any other text an error.
 std::string takeMap(std::string_view option, const std::string& like, const std::string& text,
                     std::vector<int>& map, int most = std::numeric_limits<int>::max()) {
     const auto isKnown = [most](int number) { return number >= 1 && number <= most; };

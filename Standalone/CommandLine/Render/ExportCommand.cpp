@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Events by the door of `render`, panned and drawn as curves, then as bytes.
+// The command `physvib export`: loads events like `render`, pans them, and writes their curves as a haptic
+// file.
 #include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Render/RenderInputs.h"
@@ -14,8 +15,8 @@ namespace physvib {
 namespace {
 
 struct ExportOptions {
-    RenderJob input; ///< what is exported, and how it is spread
-    std::string to;  ///< path; its ending says the format
+    RenderJob input; ///< what is exported, and its layout and panning
+    std::string to;  ///< path; its extension selects the format
     double error = 0.004;
 };
 
@@ -55,7 +56,7 @@ void tellLosses(const LoadedRender& job, const std::vector<ClipPart>& parts, Cli
     warnOf(job.made.drops, "collisions lost because too many began in one physics step");
 }
 
-/// Words of the call that say nothing here.
+/// The error of options that have no effect on an export; or empty.
 std::string refusalOf(const RenderJob& o) {
     if (o.scene.empty()) return "export: give a scene, a saved session, EVENTS.csv or a clip";
     if (const char* other = o.firstGiven(
@@ -65,7 +66,7 @@ std::string refusalOf(const RenderJob& o) {
     return o.playsRecordings ? "--method SV: recordings are no waves to be exported" : "";
 }
 
-/// Of scene, session or list: what lies within --seconds, if that is given.
+/// Makes the events of scene, session or list, within --seconds if given. Empty, or one error line.
 std::string takeEvents(LoadedRender& job, std::vector<std::string>& warnings) {
     if (!job.sessionRecordings.sets.empty())
         return job.options.scene + ": the session plays recordings, which are no waves to be exported; "
@@ -99,7 +100,7 @@ int runExport(const OptionTable& command, ExportOptions& options) {
     const auto format = clipFormatOf(options.to);
     if (!format) return leave(exitUsage, "--to: " + endingFault(options.to, writtenEndings));
     if (o.scene.ends_with(".csv")) o.fromEvents.swap(o.scene);
-    o.isEqualised = false; // of the player's own actuators
+    o.isEqualised = false; // the playing device equalises its own actuators
     if (const std::string refusal = sceneFault(o); !refusal.empty()) return leave(exitUsage, refusal);
     LoadedRender job{o, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;

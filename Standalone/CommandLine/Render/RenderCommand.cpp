@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The way of a render: inputs are read and checked, outputs opened, events made or taken, samples rendered,
-// and only when everything is written do the files take their places.
+// The command `physvib render`: reads and checks inputs, opens outputs, makes events, renders samples, and
+// puts the files in place when all are written.
 #include "Calls/CallOptions.h"
 #include "CommandLine/Command.h"
 #include "CommandLine/Render/RenderInputs.h"
@@ -17,9 +17,9 @@
 namespace physvib {
 namespace {
 
-constexpr std::int64_t maxWavBytes = 4'000'000'000; // a little less than a RIFF header can say
+constexpr std::int64_t maxWavBytes = 4'000'000'000; // a little below the limit of a RIFF header
 
-// Sines above half the sample rate would come out as other sines.
+// The error of an event at or above half the sample rate, which would alias; or empty.
 std::string tooHighFor(int rateHz, const std::vector<CollisionEvent>& events, const std::string& source) {
     const double limitHz = 0.5 * rateHz;
     const auto high =
@@ -32,7 +32,7 @@ std::string tooHighFor(int rateHz, const std::vector<CollisionEvent>& events, co
     return text.str();
 }
 
-// What was lost or altered must not go unseen.
+// Prints warnings about all that was lost or altered.
 void warnOfLosses(const RenderStatus& status, const LoadedRender& job) {
     const auto& events = job.made.events;
     const auto beyond =
@@ -67,8 +67,8 @@ OfflineSettings settingsOf(const LoadedRender& job, const std::vector<RenderCont
     return {renderer, job.frames(), o.blockFrames, controls, contacts};
 }
 
-/// The same events once more, in one channel or two; of the enchanters' controls only a stop, and with two a
-/// field, says something here.
+/// Renders the contact sound of the events, in one channel or two. Of the controls only a stop applies, and
+/// with two channels a change of the field.
 void renderContactSound(const LoadedRender& job, std::vector<RenderControl> controls,
                         RenderOutputs& outputs) {
     const RenderJob& o = job.options;
@@ -83,7 +83,7 @@ void renderContactSound(const LoadedRender& job, std::vector<RenderControl> cont
         [&](const float* const* channels, int frames) { return outputs.takeContactSound(channels, frames); });
 }
 
-/// The clip's own samples; no collisions, no controls.
+/// Renders the clip's samples, without collisions or controls.
 RenderStatus renderClip(const LoadedRender& job, RenderOutputs& outputs) {
     const ClipVoices voices{job};
     return renderOffline(
@@ -91,7 +91,7 @@ RenderStatus renderClip(const LoadedRender& job, RenderOutputs& outputs) {
         [&](const float* const* channels, int frames) { return outputs.take(channels, frames); });
 }
 
-/// Samples, and marks if they are wanted, beside each other.
+/// Renders the samples, and the onset markers if requested, in the same pass.
 RenderStatus renderMarked(const LoadedRender& job, OfflineSettings settings, RenderOutputs& outputs) {
     const auto which = job.options.marks();
     if (!which)
@@ -152,7 +152,7 @@ std::string render(LoadedRender& job) {
     return {};
 }
 
-/// Does what the (checked) options say. All files appear, or none. Returns an exit code.
+/// Runs the render of the checked options. All files appear, or none. Returns an exit code.
 int runRender(const RenderJob& options) {
     LoadedRender job{options, {}, {}, {}, {}};
     if (const int code = takeInputs(job); code != exitDone) return code;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Files first, then simulation, then what the options make of each collision.
+// Loads the inputs of a render, simulates its scene, and shapes each collision's event by the options.
 #include "CommandLine/Render/RenderInputs.h"
 #include "Formats/StrikeClip.h"
 #include "Live/Recordings/ReadRecording.h"
@@ -12,7 +12,7 @@
 namespace physvib {
 namespace {
 
-/// The layout, `own` unless one is given, and what its actuators need; or one line.
+/// Loads the layout of the options, else `own`, and the data of its actuators; or one error line.
 std::string chooseLayout(LoadedRender& job, std::optional<LayoutDescription> own) {
     const bool isOwn = own && !job.options.isGiven("--layout");
     auto layout = isOwn ? Result{std::move(*own)} : layoutNamed(job.options.layout);
@@ -46,7 +46,7 @@ std::string readInputs(LoadedRender& job) {
     return {};
 }
 
-/// Of the scene or session; one line if it is simulated too slowly.
+/// Simulates the events of the scene or session; one error line if the simulation takes too long.
 Result<SceneEvents> eventsOf(const LoadedRender& job) {
     Patience patience{job.options.patienceSeconds};
     auto made = job.session ? sessionEvents(*job.session, job.endNs(), std::ref(patience))
@@ -79,8 +79,8 @@ Result<std::vector<std::string>> makeEvents(LoadedRender& job) {
     return warnings;
 }
 
-// A channel with a place is felt there; channels without, if they are as many as the enchanters, one on each;
-// a single one in the middle of all.
+// A channel with a place is played there. Without places, as many channels as actuators are played one on
+// each, and a single channel in the middle of all.
 
 namespace {
 
@@ -96,7 +96,7 @@ LayoutDescription layoutOf(const Clip& clip) {
     return describeLayout("clip", geometry);
 }
 
-/// In metres of the job's field.
+/// Converts the place to metres of the job's field.
 EnchanterPlace placeOf(const LoadedRender& job, std::size_t channel) {
     const Clip& clip = *job.clip;
     const EnchanterLayout& layout = job.layout.geometry;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one door by which scenes, saved sessions and event lists become the events of a render or an export.
+// Inputs of a render or an export: loads what the options name, and makes its events; the channels of clips.
 #pragma once
 #include "Calls/LoadedRender.h"
 #include "Core/RenderControl.h"
@@ -8,19 +8,19 @@
 
 namespace physvib {
 /// Reads and checks what the options name: scene, session, clip or event list, layout, actuators, coupling.
-/// exitDone, or the code to leave with after a line on stderr. M only.
+/// Returns exitDone, or the exit code after an error line on stderr. M only.
 int takeInputs(LoadedRender& job);
 
-/// The job's events, shaped as its options say: simulated, or those of the list. Warnings for people on what
-/// the shaping loses; or one line. M only.
+/// Simulates the job's events, or uses those of its list, and applies the options' event shaping. Returns
+/// warnings about what the shaping loses, or one error line. M only.
 Result<std::vector<std::string>> makeEvents(LoadedRender& job);
 
-// Haptic files of others as inputs: on which enchanters each of their channels is felt.
+// Haptic files of other programs as inputs: the actuators on which each of their channels is played.
 
-/// A clip's channels at a rate, and one event for each: played as recorded contacts are.
+/// A clip's channels at the job's sample rate, each as a recorded contact, and the event that plays it.
 class ClipVoices {
 public:
-    /// `job` has a clip; see RenderInputs.cpp for where its channels are felt. What they lose goes to stderr.
+    /// `job` has a clip; RenderInputs.cpp says where its channels are played. Prints losses on stderr.
     explicit ClipVoices(const LoadedRender& job);
 
     const std::vector<CollisionEvent>& events() const { return events_; }
@@ -32,12 +32,12 @@ private:
     std::vector<RecordedContact> contacts_;
 };
 
-/// What phones' frequencies are by the options: the band of a named --actuator, else what is usual. One line
-/// if there is no such actuator. M only.
+/// The frequency range that a phone's haptic file refers to: the band of a named --actuator, else the
+/// default. Or one error line if there is no such actuator. M only.
 Result<FrequencyScale> frequencyScaleOf(const RenderJob& options);
 
-/// Takes the clip that the options name, and its own layout if none is given, into `job`: exitDone, or the
-/// code to leave with after a line on stderr. M only.
+/// Loads the clip that the options name, and its own layout if none is given, into `job`. Returns exitDone,
+/// or the exit code after an error line on stderr. M only.
 int takeClip(LoadedRender& job);
 
 } // namespace physvib

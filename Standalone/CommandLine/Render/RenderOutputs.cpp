@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writing beside, then renaming; progress on a terminal only.
+// Writes temporary files and renames them at the end; prints progress on a terminal only.
 #include "CommandLine/Render/RenderOutputs.h"
 #include "Calls/LoadedRender.h"
 #include "Calls/RenderJob.h"
@@ -23,8 +23,8 @@ namespace physvib {
 
 inline std::string inG(double g) { return fixedNumber(g, g < 0.1 ? 4 : 2) + " g"; }
 
-/// "peak -6.0 dBFS (0.50 g)", g that of the enchanter that moves most. An equalised channel holds drive: what
-/// is felt is what was asked for, not what stands in the file.
+/// "peak -6.0 dBFS (0.50 g)", in g of the actuator that moves most. An equalised channel contains the drive
+/// signal, so the acceleration is that before equalisation, not that of the samples in the file.
 inline std::string peakWords(const LoadedRender& job, const WaveformEnvelope& whole) {
     if (!(whole.peak() > 0.0f)) {
         const std::string why =
@@ -44,8 +44,8 @@ inline std::string peakWords(const LoadedRender& job, const WaveformEnvelope& wh
     return words + " (" + inG(most) + ")";
 }
 
-/// "48 collisions, 0.0020 g to 0.42 g, 3 under one step of an 8-bit converter": of each event, the enchanter
-/// that gets most of it.
+/// "48 collisions, 0.0020 g to 0.42 g, 3 under one step of an 8-bit converter": each event counts at the
+/// actuator that it is strongest at.
 inline std::string collisionWords(const LoadedRender& job) {
     constexpr double step = 1.0 / 128.0; // of full scale: the board's converters
     auto events = job.made.events;
@@ -74,7 +74,7 @@ inline std::string collisionWords(const LoadedRender& job) {
 
 namespace {
 
-/// Opens a file that has a path.
+/// Opens the file if its path is not empty.
 std::string open(auto& file, const std::string& path, const auto&... of) {
     return path.empty() ? std::string{} : file.emplace(path, of...).error();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The files a render leaves: WAV, event list, picture, pattern. They appear together at the end, or not at
-// all.
+// Output files of a render: WAV, event list, picture, movie, on/off pattern. They appear together at the end,
+// or not at all.
 #pragma once
 #include "Calls/LoadedRender.h"
 #include "Calls/MovieOutput.h"
@@ -18,7 +18,7 @@
 
 namespace physvib {
 
-// A render as a timed pattern of on and off, for motors that know nothing else.
+// A render as on and off times, for motors without other states.
 
 /// Collects the pattern; csv() is `channel,on_s,off_s`, a line per pulse, channels from 1. M only.
 class OnOffPattern final : public VibrationConverter {
@@ -75,39 +75,39 @@ private:
     std::vector<const float*> at_;
 };
 
-/// Errors are one line each; after one, nothing is left behind. M only.
+/// Writes all output files of a render. Errors are one line each; after one, no file is left. M only.
 class RenderOutputs {
 public:
     /// `job` outlives this object; its layout is known, its events need not be.
     explicit RenderOutputs(const LoadedRender& job);
 
-    /// Makes sure that every wanted file can be written.
+    /// Opens every requested file. Returns an empty string or one error line.
     std::string open();
 
-    /// The events are known now: the picture enlarges the strongest.
+    /// To be called when the job's events are known: the picture enlarges the strongest one.
     void begin();
 
-    /// The events and these controls become commands of a game controller, if those are wanted.
+    /// Computes the commands of a game controller from the events and these controls, if requested.
     void takeMotors(const std::vector<RenderControl>& controls);
 
-    /// The next frames; false after an error.
+    /// Writes the next frames of all actuators; false after an error.
     bool take(const float* const* channels, int frames);
 
-    /// Whether somebody hears the contacts: --contact-sound, or a movie.
+    /// True if an output needs the contact sound: --contact-sound, or a movie.
     bool wantsContactSound() const noexcept { return contactWav_ || (movie_ && movie_->hasSound()); }
 
-    /// The next frames of what is heard, if that is wanted; false after an error.
+    /// Writes the next frames of the contact sound; false after an error.
     bool takeContactSound(const float* const* channels, int frames);
 
-    /// The same of marks.
+    /// Writes the next frames of the onset markers; false after an error.
     bool takeMarks(const float* samples, int frames) { return markerWav_->write(&samples, frames); }
 
-    void tellMarks(const OnsetMarks& marks); ///< how many there were
+    void tellMarks(const OnsetMarks& marks); ///< for the summary
 
-    /// Completes all files and puts them in place.
+    /// Completes all files and puts them in place. Returns an empty string or one error line.
     std::string finish();
 
-    /// A line per file: what it is.
+    /// Prints a line per file with its contents.
     void summarise(std::ostream& out) const;
 
 private:
