@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For all C functions: turns exceptions into error codes, keeps the error text, copies versioned structures.
+// Shared by all C functions: error codes and the error text, versioned structures, and conversions between
+// the structures of physvib.h and the types of the engine.
 #pragma once
 #include "Api/C/physvib.h"
 #include "Core/CollisionEvent.h"
@@ -23,12 +24,12 @@ inline std::array<char, 640>& lastError() noexcept {
     return line;
 }
 
-/// As much of a text as fits, and the zero that ends it. `to` is not empty.
+/// Copies as much of the text as fits, and a terminating zero. `to` must not be empty.
 inline void copyText(std::string_view text, std::span<char> to) noexcept {
     *std::ranges::copy(text.substr(0, to.size() - 1), to.begin()).out = '\0';
 }
 
-/// Any thread but R.
+/// Sets the error text of this thread and returns `code`. Any thread but the audio thread.
 inline int fail(int code, std::string_view line) noexcept {
     copyText(line, lastError());
     return code;
@@ -70,7 +71,7 @@ Struct zeroed() noexcept {
     return values;
 }
 
-/// As physvib_event_init has it.
+/// An event with the values of physvib_event_init.
 inline physvib_event noEvent() noexcept {
     auto event = zeroed<physvib_event>();
     event.size = sizeof event;
@@ -104,23 +105,21 @@ bool take(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noe
     return true;
 }
 
-/// The same; null: as its init leaves it.
+/// As the function above; null gives the values of the init function.
 template <class Struct>
 bool takeOrBegin(const Struct* from, Struct& to, int (*init)(Struct*, std::size_t)) noexcept {
     return from == nullptr ? init(&to, sizeof to) == PHYSVIB_OK : take(from, to, init);
 }
 
-/// Of a caller's event or layout: its bytes in memory, or 0 if it says a size that this library does not
-/// know. A size of 0 is not known either: a list of such would be stepped through wrongly by a program with a
-/// later, longer header.
+/// Size in bytes that the caller's event or layout states; 0 if this library does not know that size. An
+/// event that states 0 is refused, since a program with a longer header would step wrongly through a list of
+/// them.
 template <class Struct>
 std::size_t bytesOf(const void* given) noexcept {
     std::size_t size = 0;
     std::memcpy(&size, given, sizeof size);
     return size >= sizeof size && size <= sizeof(Struct) ? size : 0;
 }
-
-// Conversions between the structures of physvib.h and the types of the engine.
 
 inline CollisionEvent eventOf(const physvib_event& e) noexcept {
     const ContactKind kind = e.kind == PHYSVIB_ROLL    ? ContactKind::roll
@@ -180,13 +179,13 @@ inline bool takeRenderer(const physvib_renderer_settings* from, RendererSettings
 /// Writes as much of a layout as the caller's `to` has; returns PHYSVIB_OK, or sets the error.
 int writeLayout(const EnchanterLayout& from, physvib_layout& to) noexcept;
 
-// A caller's events are read and written by the functions below alone, as large as the caller says they are.
+// Only the functions below read and write a caller's events, because their size is the caller's.
 
 /// Converts an event; returns empty, or why it cannot be played.
 std::string_view readEvent(const physvib_event& from, CollisionEvent& to) noexcept;
-/// The same of a list; `to` is then all of them, or none.
+/// Converts a list; returns empty, or why an event cannot be played, and then leaves `to` as it is.
 std::string_view readEvents(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to);
-/// The same of a list that has to be in time order.
+/// As readEvents(), and refuses a list that is not sorted by time.
 std::string_view readSorted(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to);
 
 /// Writes the first `capacity` events of a list; returns how many, or sets the error and returns it.

@@ -25,7 +25,7 @@ namespace {
 
 int written(const std::string& error) noexcept { return resultOf(error, PHYSVIB_ERROR_FILE); }
 
-/// A list as the renderer's source.
+/// A list of events as the source of a renderer.
 struct ListSource {
     std::span<const CollisionEvent> events;
     bool pop(CollisionEvent& event) noexcept {
@@ -36,7 +36,7 @@ struct ListSource {
     }
 };
 
-// What has been read goes to the caller, or why it could not be, with `code`.
+// The functions below write what has been read to the caller, or set its error and return `code`.
 
 int layoutTo(physvib_layout& to, const Result<LayoutDescription>& read, int code) {
     return read ? writeLayout(read.value.geometry, to) : fail(code, read.error);
@@ -77,7 +77,7 @@ int physvib_renderer_settings_init(physvib_renderer_settings* settings, size_t s
     values.exponent = 1.0;
     values.layout.size = sizeof values.layout;
     physvib_layout_preset("phone4", &values.layout);
-    // as much of the layout as the caller's structure has room for, which is at its end
+    // The layout is the last member, so it gets as much as the caller's structure has room for.
     constexpr std::size_t before = offsetof(physvib_renderer_settings, layout);
     static_assert(before + sizeof values.layout == sizeof values);
     values.layout.size = std::min(std::max(size, before) - before, sizeof values.layout);

@@ -51,7 +51,7 @@ public:
     };
 
     /// Adds an object and writes its handle to `to`; returns PHYSVIB_OK, or an error with the text `full`.
-    /// Any thread but R.
+    /// Any thread but the audio thread.
     int add(std::unique_ptr<Object> object, Name* to, std::string_view full) noexcept {
         const std::lock_guard lock{mutex_};
         const auto free = std::ranges::find_if(slots_, [](const Slot& slot) { return !slot.object; });
@@ -64,7 +64,8 @@ public:
         return PHYSVIB_OK;
     }
 
-    /// Removes the object from the table once no thread uses it; null if there is none. Any thread but R.
+    /// Waits until no thread uses the object and hands it over; null for an unknown handle. Not the audio
+    /// thread.
     std::unique_ptr<Object> take(Name handle) noexcept {
         const std::lock_guard lock{mutex_};
         const auto name = reinterpret_cast<std::uintptr_t>(handle);
@@ -75,10 +76,10 @@ public:
         return std::move(slot.object);
     }
 
-    /// Destroys the object. Returns PHYSVIB_OK, or the error of an unknown handle. Any thread but R.
+    /// Destroys the object. Returns PHYSVIB_OK, or the error of an unknown handle. Not the audio thread.
     int remove(Name handle) noexcept { return take(handle) != nullptr ? PHYSVIB_OK : unknownHandle(); }
 
-    /// The object of that handle, if it exists. Any thread, wait-free.
+    /// The object of that handle, false if there is none; it is not freed meanwhile. Any thread, wait-free.
     Use use(Name handle) noexcept PHYSVIB_NONBLOCKING {
         const auto name = reinterpret_cast<std::uintptr_t>(handle);
         Slot& slot = slotOf(name);

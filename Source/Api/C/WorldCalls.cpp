@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// C functions of a world: report contacts, take events, say why nothing is felt.
+// C functions of a world: report contacts, take its events, explain why nothing is felt.
 #include "Api/C/Calls.h"
 #include "Api/C/Objects.h"
 #include "Contacts/ContactCounts.h"
@@ -113,7 +113,7 @@ void collect(World& world, bool atOnce) {
         world.feed.take(world.taken);
 }
 
-// Outputs count since they were opened; of another output than last time, all counts.
+// Outputs count from their opening. If the count has fallen, it is of another output and all of it is new.
 std::uint64_t since(std::uint64_t& last, std::uint64_t now) noexcept {
     const std::uint64_t before = std::exchange(last, now);
     return now >= before ? now - before : now;

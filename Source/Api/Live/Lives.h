@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Handles, checks and conversions that the functions of physvib-live.h share.
+// A live rig with a thread of its own, its handles, and checks that the functions of physvib-live.h share.
 #pragma once
 #include "Api/C/Calls.h"
 #include "Api/C/Handles.h"
@@ -17,9 +17,6 @@
 
 namespace physvib::api {
 
-// A live rig for programs without a message loop: session, audio device and sinks, with a message thread of
-// their own. The session has no world of its own.
-
 /// Status of the rig.
 struct LiveStatus {
     AudioOutputStatus output;
@@ -30,6 +27,7 @@ struct LiveStatus {
     std::string trouble;
 };
 
+/// Session, audio device and sinks for programs without a message loop; the caller simulates the world.
 /// Created and ended on any thread, one call at a time. A forked child has its memory and none of its
 /// threads: there it is neither used nor destroyed.
 class Live {
@@ -48,7 +46,7 @@ public:
         return told.get();
     }
 
-    /// Silences and closes the device, and waits for both. Empty, or why the session file is incomplete.
+    /// Silences and closes the device and waits. Returns empty, or why the session file is incomplete.
     std::string end() {
         isEnding_ = true;
         if (messages_.joinable()) messages_.join();
@@ -107,7 +105,7 @@ private:
     mutable std::mutex statusMutex_;
     LiveStatus status_;
     std::string unsaved_; // written by the message thread; read after it has ended
-    int ticks_ = 0;       // the message thread's, as the next
+    int ticks_ = 0;       // this and trouble_: message thread only
     std::string trouble_;
     std::thread messages_;
 };
@@ -133,7 +131,7 @@ inline float gainOf(double db) noexcept { return static_cast<float>(fromDecibels
 
 /// Law, field and layout of a panner. Returns PHYSVIB_OK, or sets the error.
 inline int writePanner(const PhantomPanner& panner, physvib_renderer_settings& to) noexcept {
-    to.law = static_cast<int>(panner.requestedLaw()); // which is the law, unless parts choose
+    to.law = static_cast<int>(panner.requestedLaw()); // the law in use, unless the layout has parts
     to.exponent = panner.exponent();
     to.field_width_m = panner.fieldWidthMetres();
     to.field_height_m = panner.fieldHeightMetres();
