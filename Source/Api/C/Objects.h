@@ -94,8 +94,7 @@ struct World {
     std::vector<CollisionEvent> taken; // events not yet handed out
     // Bodies that do not play on the first device; kept when a body is removed, since events may still come.
     std::unordered_map<int, int> devices;
-    std::uint64_t late = 0, dropped = 0, rejected = 0, withoutPart = 0; // of the output, when it was last
-                                                                        // explained
+    std::uint64_t late = 0, dropped = 0, rejected = 0, withoutPart = 0; // of the output explained last
 };
 
 /// Controllers of a program that sends the motor commands itself.
