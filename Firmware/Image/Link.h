@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The board's side of the link: the serial port; executes messages and sends replies.
+// The board's side of the link: SerialPort transfers bytes, Link executes messages and sends replies.
 #pragma once
 #include "Core/BoardRenderer.h"
 #include "Outputs.h"
@@ -130,7 +130,7 @@ private:
     volatile std::uint32_t overruns_ = 0;
 };
 
-/// Values that only the start-up code can provide.
+/// Values that only the start-up code knows: clock, resets, free stack.
 struct Machine {
     Clock clock;
     std::uint8_t watchdogResets = 0;
@@ -146,7 +146,7 @@ public:
     /// Executes received messages; silences the board when none has come for too long.
     void poll() noexcept;
 
-    /// Called before and after each block of the renderer.
+    /// Called before and after each block of the renderer, for the self-test and its times.
     void beforeBlock() noexcept;
     void afterBlock(BoardRenderer::Codes& block, std::uint32_t cycles) noexcept;
 
