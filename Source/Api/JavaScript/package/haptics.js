@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every attachment has: numbers of bodies, steps, events for who follows and for who takes. Inside, lengths are metres and y points up.
+// Base of all attachments: numbers of bodies, steps, and events for listeners and outputs. Inside, lengths are metres and y points up.
 import { expectLibrary, expectThat, naming } from './explanation.js';
 import { material } from './impact.js';
 import { Journal, leftOut } from './journal.js';

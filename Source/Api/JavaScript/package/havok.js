@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Havok: Babylon's scene with HavokPlugin, or the package @babylonjs/havok itself. It tells a bounce in three events whose impulses are not those of its steps, so they
-// say only who touches, and where.
+// Attaches to Havok: Babylon's scene with HavokPlugin, or the package @babylonjs/havok. It reports a bounce in three events whose impulses are not those of its steps, so
+// events are only used for who touches, and where.
 import { expectEngine } from './haptics.js';
 import { inverseOf, SpaceHaptics } from './reader.js';
 import { dot, plus, turn } from './space.js';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Matter 0.19 and 0.20, and Phaser's. It moves first and looks then, its y points down, its velocities are pixels per millisecond here, and it tells no
-// impulses: they follow from masses and from velocities before and behind its solver. It steps itself; its events say when.
+// Attaches to Matter 0.19 and 0.20, and Phaser's. It moves first and tests for contacts then, its y points down, its velocities are pixels per millisecond here, and it
+// has no impulses: they follow from masses and from velocities before and after its solver. It steps itself; its events say when.
 import { expectEngine, Haptics, motionAt } from './haptics.js';
 import { byPlace, contactOf, leftOut } from './journal.js';
 

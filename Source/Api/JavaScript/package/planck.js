@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planck 1: Box2D 2.4 in JavaScript. Its impulses are whole; in the first phase of a step those of a new pair have gravity's share in them.
+// Attaches to Planck 1, Box2D 2.4 in JavaScript. It reports whole impulses; in the first phase of a step those of a new pair include a share of gravity.
 import { expectEngine, Haptics, motionAt } from './haptics.js';
 import { byPlace, contactOf, leftOut } from './journal.js';
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rapier 2D: it looks before it moves, ahead of itself, and solves in small steps. So a blow is told by speed and restitution, and what goes on touching
+// Attaches to Rapier 2D, which predicts contacts before it moves and solves in small steps. So an impact is reported by speed and restitution, and a lasting contact
 // by momentum.
 import { byPlace, contactOf, leftOut } from './journal.js';
 import { expectEngine, Haptics, meet, motionAt } from './haptics.js';

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Engines that tell velocities and boxes, but no impulses and maybe no contacts: Phaser's Arcade, Excalibur, Kaplay, or a game's own. What a step changed of two bodies
-// whose boxes or circles meet is their impact; masses say how strong. What changed without a neighbour, as a jump does, is no impact.
+// Attaches to engines with velocities and boxes, but without impulses and maybe without contacts: Phaser's Arcade, Excalibur, Kaplay, or a game's own. If boxes or circles of
+// two bodies meet, the change of their velocities in a step is their impact, weighted by masses. A change without a neighbour, such as a jump, is no impact.
 import { apart, between, copy, eachNear, putWalls, skin, stateOf } from './boxes.js';
 import { expectThat } from './explanation.js';
 import { PhysVibError } from './module.js';
