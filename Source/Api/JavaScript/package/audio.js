@@ -174,7 +174,7 @@ class Output extends EventTarget {
         if (nowNs === undefined) tell();
         else this.#soon(tell, events.length);
     }
-    // What is meant for now: dropped, and counted, where the context stands still for half a second.
+    // Plays events now; they are dropped and counted if the context has stood still for half a second.
     #soon(tell, count) {
         if (!stands(this.#context)) return tell();
         const act = ({ type }) => {

@@ -89,7 +89,7 @@ class HavokHaptics extends SpaceHaptics {
     }
 }
 
-// Of a body, a mesh that has one, an aggregate.
+// Accepts a body, a mesh that has one, or an aggregate.
 const heldBy = thing => (thing?.hpBodyId ? thing : thing?._pluginData ?? thing?._pluginDataInstances?.[0] ?? (thing?.physicsBody ?? thing?.body ? heldBy(thing.physicsBody ?? thing.body) : undefined));
 
 /** `engine`: Babylon's scene, with physics enabled; or { havok, world, bodies, gravity } of the package itself. */

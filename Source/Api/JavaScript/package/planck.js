@@ -102,7 +102,7 @@ class PlanckHaptics extends Haptics {
         this.#count = to;
     };
     #knownOf(known, body) { return known?.body === body && !known.isOut ? known : this.know(body); }
-    // Of a contact, as long as it lasts. Planck goes through them in the order of the step before, but for few.
+    // State of a contact while it lasts. Planck visits most contacts in the order of the step before.
     #lookOf(contact) {
         let look = this.#looks.get(contact);
         if (look === undefined) this.#looks.set(contact, look = lookOf(contact));

@@ -47,7 +47,7 @@ export class Waves {
         for (const pad of pads) if (pad && this.takes(pad)) this.#play(pad, new Float32Array(1)); // an empty one would change nothing
     }
 
-    // What plays no samples after all is driven by its motors from then on.
+    // A controller that turns out to play no samples is driven by its motors from then on.
     #play({ vibrationActuator: actuator }, samples) {
         const sound = this.#makeBuffer({ numberOfChannels: 1, length: samples.length, sampleRate: rate });
         sound.copyToChannel(samples, 0);

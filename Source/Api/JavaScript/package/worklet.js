@@ -29,7 +29,7 @@ class PhysVibProcessor extends AudioWorkletProcessor {
         this.port.postMessage({ isOpen: this.isOpen, latencyFrames: this.isOpen ? this.lib.physvib_renderer_latency_frames(this.renderer) : 0 });
     }
 
-    // What goes wrong here is told, and ends this processor.
+    // An error is reported and ends this processor.
     guarded(work) {
         try {
             return work();
