@@ -113,7 +113,7 @@ Surface HapticWorld::surfaceOf(const Watched& each, int i) const {
 
 // The surface of contact i, or the plane on which the body rolls or lands: an edge that does not rise above
 // the plane, as between tiles, is no obstacle although Jolt's normal points at it, unless the solver stops
-// the body there, as at the foot of a ramp. If that is not sure, sets `doubt` to a ball's speed there.
+// the body, as at the foot of a ramp. If that is not sure, sets `doubt` to a ball's speed there.
 Surface HapticWorld::overSeams(const Watched& each, const Watched& met, int i,
                                std::optional<double>& doubt) const {
     constexpr double outstanding = 0.005; // m
