@@ -124,7 +124,7 @@ private:
     std::uint32_t cyclesPerFrame_ = 1;
     std::array<volatile std::uint8_t, 256> received_{}; // 22 ms of the line; 8-bit indices wrap
     std::array<std::uint8_t, 128> toSend_{};
-    std::array<Moment, 16> zeros_{}; // in a flood of empty frames, some come late; synchronisation copes
+    std::array<Moment, 16> zeros_{}; // may be late in a flood of empty frames
     volatile std::uint8_t receivedAt_ = 0, readAt_ = 0, putAt_ = 0, sentAt_ = 0;
     std::uint8_t zerosSeen_ = 0, zerosTaken_ = 0;
     volatile std::uint32_t overruns_ = 0;

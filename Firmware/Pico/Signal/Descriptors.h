@@ -188,7 +188,7 @@ constexpr void addAudioControl(DescriptorBytes& d, int channels) noexcept {
     d.put({interface, audioControlInterface, 0, 0, audio, 1, audioVersion, 0});
     const auto header = d.count;
     d.put({ofInterface, 1, 0x00, 0x02, 1, 0, 0, 0});    // version 2.0, a speaker; total length below
-    d.put({ofInterface, 10, unitClock, 1, 0x05, 0, 0}); // internal, fixed; frequency and validity can be read
+    d.put({ofInterface, 10, unitClock, 1, 0x05, 0, 0}); // internal, fixed; frequency, validity readable
     d.put({ofInterface, 2, unitInput, 0x01, 0x01, 0, unitClock, channels, 0, 0, 0, 0, 0, 0, 0, 0});
     d.add({6 + 4 * (channels + 1), ofInterface, 6, unitVolume, unitInput});
     for (int channel = 0; channel <= channels; ++channel) d.add({0x0f, 0, 0, 0}); // mute and volume
@@ -202,9 +202,9 @@ constexpr void addAudioStream(DescriptorBytes& d, int channels, int feedbackByte
     const int most = packetBytes(channels);
     d.put({interface, audioStreamInterface, 0, 0, audio, 2, audioVersion, 0});
     d.put({interface, audioStreamInterface, 1, 2, audio, 2, audioVersion, 0});
-    d.put({ofInterface, 1, unitInput, 0, 1, 1, 0, 0, 0, channels, 0, 0, 0, 0, 0}); // PCM; places not named
+    d.put({ofInterface, 1, unitInput, 0, 1, 1, 0, 0, 0, channels, 0, 0, 0, 0, 0}); // PCM, no places
     d.put({ofInterface, 2, 1, 2, 16});                                             // two bytes, 16 bits
-    d.put({endpoint, audioEndpoint, 0x05, lowByte(most), highByte(most), 1});      // asynchronous, every ms
+    d.put({endpoint, audioEndpoint, 0x05, lowByte(most), highByte(most), 1});      // asynchronous, 1 ms
     d.put({ofEndpoint, 1, 0, 0, 0, 0, 0});
     d.put({endpoint, feedbackEndpoint, 0x11, feedbackBytes, 0, 1}); // every ms
 }
@@ -226,7 +226,7 @@ constexpr void addSerial(DescriptorBytes& d) noexcept {
 /// The configuration descriptor, whole. Compile time.
 constexpr DescriptorBytes configurationDescriptor(int channels, int feedbackBytes = 4) noexcept {
     DescriptorBytes d;
-    d.put({descriptor::configuration, 0, 0, 4, 1, 0, 0x80, 50}); // powered by the bus, 100 mA at most
+    d.put({descriptor::configuration, 0, 0, 4, 1, 0, 0x80, 50}); // bus power, max 100 mA
     descriptor::addAudioControl(d, channels);
     descriptor::addAudioStream(d, channels, feedbackBytes);
     descriptor::addSerial(d);

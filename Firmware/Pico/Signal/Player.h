@@ -147,7 +147,7 @@ private:
                        bool& clipped) noexcept {
         std::int32_t sum = 0;
         const std::int32_t most = ceiling();
-        if (from == unity && end == unity && most == fullScale) { // the usual case: samples pass unchanged
+        if (from == unity && end == unity && most == fullScale) { // usual case: unchanged
             for (auto& frame : tile) {
                 clipped = clipped || frame[j] < -fullScale;
                 frame[j] = std::max<std::int16_t>(frame[j], -fullScale);

@@ -83,7 +83,7 @@ public:
     Use use(Name handle) noexcept PHYSVIB_NONBLOCKING {
         const auto name = reinterpret_cast<std::uintptr_t>(handle);
         Slot& slot = slotOf(name);
-        slot.users.fetch_add(1); // before reading the name; take() clears the name before it reads the users
+        slot.users.fetch_add(1); // before the name is read; take() clears it before it reads users
         if (name != 0 && slot.name.load() == name) return {*slot.object, slot.users};
         slot.users.fetch_sub(1);
         return {};

@@ -120,7 +120,7 @@ Surface HapticWorld::overSeams(const Watched& each, const Watched& met, int i,
     const Surface own = surfaceOf(each, i);
     if (goesThroughCentre(met, own.at, own.normal)) return own;
     const bool isRound = goesThroughCentre(each, own.at, own.normal);
-    const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch a wall as high as the floor
+    const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch walls at floor height
     Surface found = own;
     double slowest = approach(each, own, i);
     // It rolls, or the solver stops it there.

@@ -229,8 +229,7 @@ Value HapticWorld::timeSeconds() const {
 void HapticWorld::mapField() {
     unit = get(metresPerUnit).real();
     corner = get(fieldCorner).vector();
-    if (!isSpace)
-        corner[1] += get(fieldSize).vector()[1]; // y points down in 2D, so the lower corner has the larger y
+    if (!isSpace) corner[1] += get(fieldSize).vector()[1]; // y points down in 2D: a lower y is larger
 }
 
 std::string HapticWorld::findLayout(physvib_layout& found) const {
@@ -335,7 +334,7 @@ physvib_event HapticWorld::asSeen(const physvib_event& event) const {
 }
 
 namespace {
-constexpr int listed = 16; // contacts of a body that Godot lists per tick, unless the game wants more
+constexpr int listed = 16; // contacts per body and tick, unless the game wants more
 // A key for a body without a node: ids of nodes never have the highest bit set.
 std::uint64_t idOfRid(std::uint64_t rid) { return rid | std::uint64_t{1} << 63U; }
 bool isRigidBody(const Value& node, bool isSpace) {

@@ -14,7 +14,7 @@
 
 namespace physvib::godot {
 
-/// A contact of a body, or one that is near: `at` on the body and `there` on the other, m; unit normal to it.
+/// A contact of a body, or one that is near: `at` on the body and `there` on the other, m; unit normal.
 struct Surface {
     Vector at, there, normal;
     double gap; ///< m; below 0: the bodies overlap
