@@ -7,8 +7,7 @@ namespace physvib::board {
 namespace {
 
 constexpr std::uint32_t framesPerMs = limits::board::sampleRateHz / 1000;
-constexpr std::uint32_t fadeFrames = 3 * framesPerMs; // rendered-ahead frames plus fade: the fade starts so
-                                                      // early that silence is on time
+constexpr std::uint32_t fadeFrames = 3 * framesPerMs; // queued frames and fade: silence is on time
 constexpr std::uint32_t watchdogFrames(int ms) noexcept {
     return static_cast<std::uint32_t>(std::clamp(ms, 20, wire::defaultWatchdogMs)) * framesPerMs - fadeFrames;
 }

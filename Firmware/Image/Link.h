@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The board's side of the link: the serial port; executes messages and sends replies.
+// The board's side of the link: SerialPort transfers bytes, Link executes messages and sends replies.
 #pragma once
 #include "Core/BoardRenderer.h"
 #include "Outputs.h"
@@ -124,13 +124,13 @@ private:
     std::uint32_t cyclesPerFrame_ = 1;
     std::array<volatile std::uint8_t, 256> received_{}; // 22 ms of the line; 8-bit indices wrap
     std::array<std::uint8_t, 128> toSend_{};
-    std::array<Moment, 16> zeros_{}; // in a flood of empty frames, some come late; synchronisation copes
+    std::array<Moment, 16> zeros_{}; // may be late in a flood of empty frames
     volatile std::uint8_t receivedAt_ = 0, readAt_ = 0, putAt_ = 0, sentAt_ = 0;
     std::uint8_t zerosSeen_ = 0, zerosTaken_ = 0;
     volatile std::uint32_t overruns_ = 0;
 };
 
-/// Values that only the start-up code can provide.
+/// Values that only the start-up code knows: clock, resets, free stack.
 struct Machine {
     Clock clock;
     std::uint8_t watchdogResets = 0;
@@ -146,7 +146,7 @@ public:
     /// Executes received messages; silences the board when none has come for too long.
     void poll() noexcept;
 
-    /// Called before and after each block of the renderer.
+    /// Called before and after each block of the renderer, for the self-test and its times.
     void beforeBlock() noexcept;
     void afterBlock(BoardRenderer::Codes& block, std::uint32_t cycles) noexcept;
 

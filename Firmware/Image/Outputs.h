@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Queue of frames between renderer and converters; its count of frames is the board's clock.
+// The bus to the converters, and the queue of frames before it, whose count of frames is the board's clock.
 #pragma once
 #include "Core/BoardRenderer.h"
 #include "Registers.h"

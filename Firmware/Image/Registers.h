@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The registers used, named as in ST's reference manual RM0364 and in the ARMv7-M manual.
+// Registers, named as in ST's manual RM0364 and the ARMv7-M manual, and the start of clock and timer.
 #pragma once
 #include "Core/Limits.h"
 #include <cstdint>
@@ -93,7 +93,7 @@ inline void startSampleTimer(const Clock& clock) noexcept {
     reg(tim6::cr1) = 1;
 }
 
-// Facts from the start-up code.
+// Functions of Startup.cpp.
 
 /// Number of restarts by the hardware watchdog since power-on. Call once.
 std::uint8_t countWatchdogReset() noexcept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pins of the Pico, and what the image was built for. All wires are on one side, beside each other. Frames to
-// I2S amplifiers: one state machine of the PIO per line, fed by DMA from two tiles in turn.
+// Pins and clock of the Pico, restarts, and the output to I2S amplifiers: per line one state machine of the
+// PIO, which DMA feeds from two tiles in turn. All wires are on one side of the board, beside each other.
 #pragma once
 #include "Signal/Player.h"
 #include "hardware/sync.h"
@@ -14,7 +14,7 @@ constexpr int boardLines = boardChannels / 2; // an I2S line carries two channel
 
 constexpr unsigned firstDataPin = 2; // GP2 (and 3; with eight channels 4 and 5): data of the lines
 constexpr unsigned bitClockPin = 6;  // GP6: bit clock, GP7: word clock, of all lines
-constexpr unsigned amplifierPin = 8; // GP8: high while something may be felt
+constexpr unsigned amplifierPin = 8; // GP8: high while the amplifiers shall be on
 constexpr unsigned ceilingPin = 9;   // GP9: open, the ceiling is a quarter; tied to ground, full scale
 constexpr unsigned ledPin = 25;
 
@@ -25,17 +25,16 @@ constexpr unsigned stepsPerFrame = 64; // two per bit
 constexpr unsigned clockDivider = systemClockHz / (stepsPerFrame * sampleRateHz);
 static_assert(clockDivider * stepsPerFrame * sampleRateHz == systemClockHz);
 
-// The only waits of the image that ask in a loop. Each ends: what the chip does within microseconds comes
-// within a millisecond, or the chip is in a state that nobody knows.
+// The only busy waits of the image, each at most a millisecond: a chip in a known state needs microseconds.
 
-/// Through the watchdog, which counts it: pins become inputs, and the amplifiers shut down. Any context.
+/// Restarts by the watchdog, which counts it: pins become inputs, and the amplifiers shut down. Any context.
 [[noreturn]] inline void restart() noexcept {
-    save_and_disable_interrupts(); // one of them feeds the watchdog
+    save_and_disable_interrupts(); // an interrupt feeds the watchdog
     watchdog_enable(1, false);
     for (;;) tight_loop_contents();
 }
 
-/// Until `isTrue()`; after a millisecond, restarts. Main loop.
+/// Waits until `isTrue()`; restarts after a millisecond. Main loop.
 template <class IsTrue>
 void waitOrRestart(IsTrue&& isTrue) noexcept {
     constexpr std::uint32_t mostMicroseconds = 1000;

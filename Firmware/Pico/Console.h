@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Text on the board's serial port. A line is a command: "info", "counters", "silence on", "silence off". What
-// begins with "silence" and is not "silence off" silences, as everywhere in PhysVib.
+// Commands by text on the serial port, one per line: "info", "counters", "silence on", "silence off". As
+// everywhere in PhysVib, a line that begins with "silence" silences, except "silence off".
 #pragma once
 #include <array>
 #include <cstdint>
@@ -20,11 +20,11 @@ public:
             worstTileCycles;
     };
 
-    /// True: a command is complete and answer is due.
+    /// Adds a received character. True: a command is complete, and answer() is to be called.
     bool take(char c) noexcept {
         if (c == '\n' || c == '\r') return count_ > 0;
         if (count_ < line_.size()) line_[count_] = c;
-        if (count_ <= line_.size()) ++count_; // a line that is too long is no command
+        if (count_ <= line_.size()) ++count_; // count_ marks a line as too long
         return false;
     }
 
@@ -52,7 +52,7 @@ public:
     }
 
     bool isSilenced() const noexcept { return silenced_; }
-    void silence() noexcept { silenced_ = true; } ///< as before a restart
+    void silence() noexcept { silenced_ = true; } ///< restores the silence from before a restart
 
 private:
     void counters(const Facts& f) noexcept {

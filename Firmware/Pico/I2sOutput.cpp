@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Two tiles per line: while DMA sends one, the interrupt renders the other. The channels of DMA start each
-// other and wrap within their tile, so the processor only writes samples.
+// The I2S output. Two tiles per line: while DMA sends one, the interrupt renders the other. The DMA channels
+// start each other and wrap within their tile, so the processor only writes samples.
 #include "Board.h"
 #include "hardware/clocks.h"
 #include "hardware/dma.h"
@@ -13,7 +13,7 @@
 namespace physvib::pico {
 namespace {
 
-// A reset of the bus may keep USB's interrupt, and so the main loop, for 50 ms; it is silent then.
+// A reset of the USB bus may block the main loop for 50 ms, in which the output is silent.
 constexpr std::uint32_t patienceTiles = tilesPerSecond / 10;
 constexpr std::uint32_t watchdogMs = 4;
 constexpr int sides = 2;
@@ -35,7 +35,7 @@ void pack(int side) noexcept {
                                    static_cast<std::uint16_t>(tile[k][2 * line + 1]);
 }
 
-// The last line's DMA asks for it, when all lines have sent that tile.
+// Interrupt of the last line's DMA: all lines have sent a tile.
 void sentTile() noexcept {
     const auto began = systick_hw->cvr;
     for (int side = 0; side < sides; ++side) {
@@ -119,10 +119,10 @@ void startOutput(Player<boardChannels>& player) noexcept {
         first |= 1u << dmaChannels[0][line];
     }
     irq_set_exclusive_handler(DMA_IRQ_0, sentTile);
-    irq_set_priority(DMA_IRQ_0, PICO_HIGHEST_IRQ_PRIORITY); // USB after it: late packets are not felt
+    irq_set_priority(DMA_IRQ_0, PICO_HIGHEST_IRQ_PRIORITY); // above USB, whose packets may be late
     irq_set_enabled(DMA_IRQ_0, true);
     dma_start_channel_mask(first);
-    // A line that starts without data would wait a step, and stay behind the clocks for good.
+    // A line that started without data would wait for a step, and stay behind the clocks.
     for (unsigned line = 0; line < boardLines; ++line)
         waitOrRestart([line] { return pio_sm_is_tx_fifo_full(pio0, line); });
     pio_enable_sm_mask_in_sync(pio0, (1u << boardLines) - 1);

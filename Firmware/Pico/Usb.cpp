@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// TinyUSB's callbacks, which it calls from pollUsb, so from the main loop; and what TinyUSB 0.18 would not
-// survive, put right before it sees it: the linker puts those functions before TinyUSB's (--wrap).
+// USB: callbacks that TinyUSB calls from pollUsb, so in the main loop; settings that survive a restart; and
+// corrections of requests that TinyUSB 0.18 cannot handle, in functions that the linker puts before its own.
 #include "Usb.h"
 #include "Board.h"
 #include "Console.h"
@@ -31,11 +31,11 @@ MissingPackets missing;
 Console console;
 std::uint32_t wrongSizes = 0, restarts = 0;
 bool isStreaming = false;  // alternate setting 1 is selected
-FeedbackForm feedbackForm; // is asked by the interrupt of USB, too
+FeedbackForm feedbackForm; // also read by the interrupt of USB
 char serialNumber[2 * PICO_UNIQUE_BOARD_ID_SIZE_BYTES + 1];
 
-// A restart by the watchdog lifts neither silence nor a volume that was turned down: they are in its scratch
-// registers, whose first one counts restarts, and whose last four are the SDK's.
+// Silence and volumes survive a restart by the watchdog in its scratch registers. The first of these counts
+// restarts, and the last four belong to the SDK.
 struct Kept {
     std::array<std::uint8_t, boardChannels + 1> volumes;
     std::uint8_t isSilenced;
@@ -193,7 +193,7 @@ bool tud_audio_rx_done_post_read_cb(std::uint8_t, std::uint16_t bytes, std::uint
                                     std::uint8_t) {
     constexpr std::uint16_t frameBytes = sizeof(Frame<boardChannels>);
     static Frame<boardChannels> frames[packetBytes(boardChannels) / frameBytes];
-    // All of it is taken out: part of a frame would shift the channels of every later one.
+    // The FIFO is emptied: a part of a frame would shift the channels of all later ones.
     const auto taken = std::min<std::uint16_t>(tud_audio_read(frames, sizeof frames), bytes);
     if (tud_audio_available() > 0) tud_audio_clear_ep_out_ff();
     if (missing.see(usb_hw->sof_rd, player->isPlaying())) player->buffer.miss();
@@ -206,16 +206,15 @@ bool tud_audio_rx_done_post_read_cb(std::uint8_t, std::uint16_t bytes, std::uint
 
 std::uint16_t __real_tu_fifo_write_n(tu_fifo_t* fifo, void const* data, std::uint16_t bytes);
 
-/// A packet of no bytes is no failure: TinyUSB takes the 0 for one, and never arms the stream's endpoint
-/// again. Main loop.
+/// Returns 1 for an empty packet: TinyUSB takes 0 as an error and does not arm the endpoint again. Main loop.
 std::uint16_t __wrap_tu_fifo_write_n(tu_fifo_t* fifo, void const* data, std::uint16_t bytes) {
     return bytes == 0 ? 1 : __real_tu_fifo_write_n(fifo, data, bytes);
 }
 
 void __real_dcd_event_handler(dcd_event_t const* event, bool isInterrupt);
 
-/// Refuses standard requests whose direction contradicts them: asked for a descriptor by a request that sends
-/// data, TinyUSB 0.18 writes that data over the descriptor. Interrupt of USB, and main loop.
+/// Refuses standard requests of the wrong direction: if a request for a descriptor sends data, TinyUSB 0.18
+/// overwrites the descriptor with it. Interrupt of USB, and main loop.
 void __wrap_dcd_event_handler(dcd_event_t const* event, bool isInterrupt) {
     if (event->event_id == DCD_EVENT_BUS_RESET) feedbackForm.reset();
     if (event->event_id != DCD_EVENT_SETUP_RECEIVED) return __real_dcd_event_handler(event, isInterrupt);
@@ -225,7 +224,7 @@ void __wrap_dcd_event_handler(dcd_event_t const* event, bool isInterrupt) {
         const bool answers =
             request.bRequest == TUSB_REQ_GET_STATUS || request.bRequest == TUSB_REQ_GET_DESCRIPTOR ||
             request.bRequest == TUSB_REQ_GET_CONFIGURATION || request.bRequest == TUSB_REQ_GET_INTERFACE;
-        constexpr std::uint8_t unknown = 0xff; // which TinyUSB refuses
+        constexpr std::uint8_t unknown = 0xff; // TinyUSB refuses it
         if (request.bRequest == TUSB_REQ_GET_DESCRIPTOR)
             feedbackForm.asks(static_cast<std::uint8_t>(request.wValue >> 8));
         const bool isIn = request.bmRequestType_bit.direction == TUSB_DIR_IN;

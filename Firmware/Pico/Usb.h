@@ -11,7 +11,7 @@ void startUsb(Player<boardChannels>& player, std::uint32_t watchdogRestarts) noe
 /// Serves the host. Main loop, at least once a millisecond.
 void pollUsb() noexcept;
 
-/// Packets that were dropped, were missing, or had a wrong size, and restarts. Main loop.
+/// Number of packets that were dropped, missing or of a wrong size, and of restarts. Main loop.
 std::uint32_t faults() noexcept;
 
 } // namespace physvib::pico

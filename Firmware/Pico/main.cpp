@@ -30,7 +30,7 @@ void startPins() noexcept {
     gpio_pull_up(ceilingPin);
 }
 
-// Kept by the watchdog's scratch register, which a restart by it leaves as it is.
+// Counts restarts by the watchdog in a scratch register that such a restart keeps.
 std::uint32_t countRestarts() noexcept {
     auto& count = watchdog_hw->scratch[0];
     count = watchdog_enable_caused_reboot() ? count + 1 : 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Models of the STM32F334 peripherals that the firmware uses, driven by processor cycles.
+// Models of the STM32F334 peripherals that the firmware uses and of its converters, driven by processor
+// cycles.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -31,7 +32,7 @@ class Converters {
 public:
     using Frame = std::array<std::uint8_t, 4>;
 
-    /// Sets the levels of PC0 to PC11 from `ns` on. True if this latched the last converter of a frame.
+    /// Sets the levels of PC0 to PC11 from `ns` on. True if the last code of a frame was latched.
     bool levels(std::uint32_t pins, double ns) {
         const std::uint32_t changed = pins ^ pins_;
         if (changed & (latch | chips)) checkHold(ns), selectChanged_ = ns;

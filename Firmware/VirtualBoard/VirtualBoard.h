@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Virtual board: runs the unmodified firmware image in the Unicorn emulator, with a model of the processor's
-// surroundings. CycleModel counts time in processor cycles.
+// Virtual board: runs the unmodified firmware image (ElfImage) in the Unicorn emulator, with models of its
+// surroundings (Peripherals) and of the duration of its instructions (CycleModel).
 //
 // Known limits: interrupts are taken between instruction blocks (up to about a hundred cycles late); the
 // clock runs at full speed from reset on; analogue behaviour is not modelled.

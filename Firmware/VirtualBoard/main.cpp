@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// physvib-virtual-board: runs the firmware image in real time, with its serial line on a pseudo-terminal.
+// physvib-virtual-board: runs the firmware image in real time, with its serial line on a pseudo-terminal that
+// can be unplugged. Logs when it sounds, and writes its output as a WAV file.
 #include "Peripherals.h"
 #include "PseudoTerminal.h"
 #include "VirtualBoard.h"
@@ -18,9 +19,9 @@
 #include <thread>
 #include <vector>
 
-// Connects and disconnects the virtual board's serial port, like pulling a USB cable.
-
 namespace physvib::virtualboard {
+
+/// Connects and disconnects the virtual board's serial port, like pulling a USB cable.
 class Plug {
 public:
     /// Connects. `link`: a symbolic link that stays the same between connections, or empty. Throws what
@@ -68,10 +69,8 @@ private:
     std::optional<PseudoTerminal> line_;
 };
 
-// Logs when the converters leave and reach silence, in time of the steady clock. All programs of a machine
-// share that clock, so the log can be compared with devices that play beside the board.
-
-/// A CSV file of `steady_ns,what`, written line by line; `what`: sound, silence (from 20 ms), a note.
+/// Logs when the converters leave and reach silence (20 ms), and notes, as a CSV file of `steady_ns,what`.
+/// Other programs share the steady clock, so the log can be compared with devices that play beside the board.
 class SoundLog {
 public:
     /// With an empty path nothing is written. Throws std::runtime_error.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Included before Box2D's joints to remove their b2Dump output.
+// Included before Box2D's joints: removes their b2Dump output, whose texts would enlarge the module.
 #pragma once
 #include <box2d/b2_common.h>
 

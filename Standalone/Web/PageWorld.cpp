@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A running scene and its haptic output, on the thread that renders the audio; and the functions of the
+// The files that the page opens; PageWorld, a running scene with its haptic output, on the
+// thread that renders the audio; and the functions of the
 // WebAssembly module that the page calls, besides the motor controllers in Source/Api/JavaScript. On an error
 // they do not return (js::refuse), and the page discards the instance.
 #include "Api/JavaScript/Exports.h"
@@ -35,11 +36,8 @@
 namespace physvib {
 namespace {
 
-// File that a page opens: a scene, an event list or a clip, selected by its name. MPEG formats are rejected
-// with a hint, to keep the page small.
-
-/// A world and the events played in it: none for a scene, its events for a list, and one event that stands
-/// for the samples of a clip.
+/// A file that a page opens: a scene and the events played in it. A scene file has none, an event list has
+/// its own, and a clip has one, which plays its samples. MPEG formats are refused, to keep the page small.
 struct PageFile {
     Scene scene;
     std::vector<CollisionEvent> strikes; ///< sorted by time
@@ -86,8 +84,8 @@ Result<PageFile> readPageFile(std::string_view name, std::string_view text, cons
     return PageFile{std::move(read.value), {}, {}};
 }
 
-/// The output equals the rendered file, delayed by outputLatencyFrames(). One thread has all roles of
-/// Live/Session/Session.h, and steps the world in the block that needs it.
+/// A running scene. Its output equals the rendered file, delayed by outputLatencyFrames(). One thread has all
+/// roles of Live/Session/Session.h, and steps the world in the block that needs it.
 class PageWorld {
 public:
     static constexpr int stepsPerSecond = 100;
@@ -116,7 +114,7 @@ public:
         controls_.push({.kind = RenderControl::Kind::recordings, .recordings = {{&clip_, 1}, false}});
     }
 
-    /// The next frames, channel by channel.
+    /// Renders the next frames; the result has them channel by channel and is valid until the next call.
     const float* render(int frames) {
         stepTo(done_ + frames);
         samples_.resize(outputs_ * static_cast<std::size_t>(frames));
@@ -130,7 +128,7 @@ public:
     }
     std::int64_t outputLatencyFrames() const noexcept { return law_.outputLatencyFrames(); }
 
-    /// x, y, angle and presence (1 or 0) of each body of cast(), consecutively.
+    /// Per body of cast() x and y in m, angle in rad, and presence (1 or 0), consecutively.
     const std::vector<float>& poses() {
         poses_.clear();
         for (std::size_t i = 0; i < cast_.size(); ++i) {
@@ -153,7 +151,7 @@ public:
         return true;
     }
 
-    /// Applies now; fault() has its error.
+    /// Applies an input now; if it is refused, fault() says why.
     void act(const Action& action) {
         if (fault_ = check_.take(action); fault_.empty())
             simulation_.addInput(static_cast<double>(simulation_.timeNs()) * 1e-9, action);
@@ -164,12 +162,12 @@ public:
     bool isPlayed() const noexcept { return player_.isThere(); }
     const std::string& fault() const noexcept { return fault_; } ///< of the last input; empty: none
 
-    /// Pulls the body there until letGo().
+    /// Pulls the body towards a place until letGo().
     void grip(int finger, std::size_t body, Vector toMetres) {
         if (finger < 0 || finger >= fingers || body >= cast_.size()) return;
         hands_[static_cast<std::size_t>(finger)] = Hand{body, toMetres};
     }
-    // A kinematic body would keep its velocity.
+    // Stops a kinematic body, which would keep its velocity.
     void letGo(int finger) {
         if (finger < 0 || finger >= fingers) return;
         const auto held = std::exchange(hands_[static_cast<std::size_t>(finger)], {});
@@ -188,7 +186,7 @@ public:
         controls_.push({.timeNs = timeNs, .kind = RenderControl::Kind::panner, .panner = &now});
     }
 
-    bool pop(CollisionEvent& event) noexcept { // for the renderer, as the next
+    bool pop(CollisionEvent& event) noexcept { // called by the renderer, like the two below
         if (events_.empty()) return false;
         event = events_.front();
         events_.pop_front();
@@ -207,7 +205,7 @@ private:
     PhantomPanner panner() const noexcept {
         return {layout_, panningLaw_, 1.0, fieldMetres_.x, fieldMetres_.y};
     }
-    // Frame 0 of the renderer.
+    // Frame of the output at which the renderer starts.
     std::int64_t firstFrame() const noexcept { return law_.outputLatencyFrames() - law_.limiterFrames; }
     std::int64_t nsOf(std::int64_t frame) const noexcept {
         return static_cast<std::int64_t>(static_cast<double>(frame) * 1e9 / law_.sampleRateHz);
@@ -234,8 +232,8 @@ private:
     }
 
     const PageFile file_;
-    RecordedContact clip_;   // its samples
-    std::size_t struck_ = 0; // of the file's strikes
+    RecordedContact clip_;   // samples of the file
+    std::size_t struck_ = 0; // events of the file that were queued
     Simulation simulation_;
     InputCheck check_;
     ScenePlayer player_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the board tells a USB host about itself: an Audio Class 2 function (48 kHz, 16 bit, an asynchronous
-// endpoint with explicit feedback, volume and mute) and a serial port for text. Written by hand from the
-// standards (USB 2.0 chapter 9; Audio Devices 2.0; CDC 1.2), without TinyUSB, so that tests can read it.
+// USB descriptors of the board, its volume and mute controls, and the format of its feedback: an Audio Class
+// 2 function (48 kHz, 16 bit, an asynchronous endpoint with explicit feedback) and a serial port. Written by
+// hand from USB 2.0 (chapter 9), Audio Devices 2.0 and CDC 1.2, without TinyUSB, so that tests can read it.
 #pragma once
 #include "FixedGuard.h"
 #include <algorithm>
@@ -37,7 +37,7 @@ constexpr std::int32_t gainOfVolume(int volume) noexcept {
     return index <= 0 ? unity : index >= 129 ? 0 : table[static_cast<std::size_t>(index)];
 }
 
-/// What a request for a value is answered with; no bytes: it is refused.
+/// Answer to a request for a value; no bytes: the request is refused.
 struct AudioReply {
     std::array<std::uint8_t, 16> bytes{};
     std::uint16_t count = 0;
@@ -72,7 +72,7 @@ public:
         return reply;
     }
 
-    /// False: refused, nothing changes.
+    /// Sets a control; false: the request is refused, and nothing changes.
     bool set(std::uint8_t unit, std::uint8_t request, std::uint8_t control, std::uint8_t channel,
              const std::uint8_t* data, std::uint16_t count) noexcept {
         if (request != audio_request::current) return false;
@@ -90,8 +90,8 @@ public:
         return true;
     }
 
-    /// All of it in a byte per channel, the one for all first: steps below the highest volume, and mute in
-    /// the highest bit. Steps are rounded towards silence.
+    /// State as bytes, first that of all channels, then one per channel: steps below the highest volume, and
+    /// mute in the highest bit. Steps are rounded towards silence.
     Each<std::uint8_t> kept() const noexcept {
         Each<std::uint8_t> bytes{};
         for (std::size_t j = 0; j < bytes.size(); ++j)
@@ -126,10 +126,11 @@ private:
     Each<int> volume_{};
     Each<bool> isMuted_{};
 };
-/// Which form of feedback the host reads. At full speed macOS takes 10.14 in three bytes alone, and
-/// Windows 16.16 in four alone; Linux finds out by itself. After a reset of the bus, macOS asks for a text
-/// before it asks for the configuration, and the others after it (seen by TinyUSB's authors with Windows 10
-/// and 11, Linux 3.16 to 6.8, macOS 13 and 14). reset, asks: interrupt of USB; the other: any.
+
+/// Format of feedback that the host reads. At full speed macOS only accepts 10.14 in three bytes, and Windows
+/// only 16.16 in four; Linux detects it. After a reset of the bus, macOS asks for a string before it asks for
+/// the configuration, the others after it (found by TinyUSB's authors with Windows 10 and 11, Linux 3.16 to
+/// 6.8, macOS 13 and 14). isThreeBytes: any context; the others: interrupt of USB.
 class FeedbackForm {
 public:
     void reset() noexcept { asked_.store(0, std::memory_order_relaxed); }
@@ -143,7 +144,7 @@ public:
 
 private:
     static constexpr std::uint8_t configuration = 2, text = 3;
-    std::atomic<std::uint8_t> asked_{0}; // the first one
+    std::atomic<std::uint8_t> asked_{0}; // type of the first request since the reset
 };
 
 constexpr std::uint8_t audioControlInterface = 0, audioStreamInterface = 1, serialControlInterface = 2,
@@ -154,7 +155,7 @@ constexpr std::uint16_t packetBytes(int channels) noexcept {
     return static_cast<std::uint16_t>((sampleRateHz / 1000 + 1) * 2 * channels); // 49 frames: feedback
 }
 
-/// Bytes that grow. Compile time.
+/// Descriptors as bytes that can be appended to. Compile time.
 struct DescriptorBytes {
     std::array<std::uint8_t, 320> data{};
     std::uint16_t count = 0;
@@ -162,7 +163,7 @@ struct DescriptorBytes {
     constexpr void add(std::initializer_list<int> values) noexcept {
         for (const int value : values) data[count++] = static_cast<std::uint8_t>(value);
     }
-    // A descriptor: its length goes first.
+    // Adds a descriptor with its length before it.
     constexpr void put(std::initializer_list<int> values) noexcept {
         add({static_cast<int>(values.size()) + 1});
         add(values);
@@ -187,7 +188,7 @@ constexpr void addAudioControl(DescriptorBytes& d, int channels) noexcept {
     d.put({interface, audioControlInterface, 0, 0, audio, 1, audioVersion, 0});
     const auto header = d.count;
     d.put({ofInterface, 1, 0x00, 0x02, 1, 0, 0, 0});    // version 2.0, a speaker; total length below
-    d.put({ofInterface, 10, unitClock, 1, 0x05, 0, 0}); // internal, fixed; frequency and validity can be read
+    d.put({ofInterface, 10, unitClock, 1, 0x05, 0, 0}); // internal, fixed; frequency, validity readable
     d.put({ofInterface, 2, unitInput, 0x01, 0x01, 0, unitClock, channels, 0, 0, 0, 0, 0, 0, 0, 0});
     d.add({6 + 4 * (channels + 1), ofInterface, 6, unitVolume, unitInput});
     for (int channel = 0; channel <= channels; ++channel) d.add({0x0f, 0, 0, 0}); // mute and volume
@@ -201,9 +202,9 @@ constexpr void addAudioStream(DescriptorBytes& d, int channels, int feedbackByte
     const int most = packetBytes(channels);
     d.put({interface, audioStreamInterface, 0, 0, audio, 2, audioVersion, 0});
     d.put({interface, audioStreamInterface, 1, 2, audio, 2, audioVersion, 0});
-    d.put({ofInterface, 1, unitInput, 0, 1, 1, 0, 0, 0, channels, 0, 0, 0, 0, 0}); // PCM; places not named
+    d.put({ofInterface, 1, unitInput, 0, 1, 1, 0, 0, 0, channels, 0, 0, 0, 0, 0}); // PCM, no places
     d.put({ofInterface, 2, 1, 2, 16});                                             // two bytes, 16 bits
-    d.put({endpoint, audioEndpoint, 0x05, lowByte(most), highByte(most), 1});      // asynchronous, every ms
+    d.put({endpoint, audioEndpoint, 0x05, lowByte(most), highByte(most), 1});      // asynchronous, 1 ms
     d.put({ofEndpoint, 1, 0, 0, 0, 0, 0});
     d.put({endpoint, feedbackEndpoint, 0x11, feedbackBytes, 0, 1}); // every ms
 }
@@ -225,7 +226,7 @@ constexpr void addSerial(DescriptorBytes& d) noexcept {
 /// The configuration descriptor, whole. Compile time.
 constexpr DescriptorBytes configurationDescriptor(int channels, int feedbackBytes = 4) noexcept {
     DescriptorBytes d;
-    d.put({descriptor::configuration, 0, 0, 4, 1, 0, 0x80, 50}); // powered by the bus, 100 mA at most
+    d.put({descriptor::configuration, 0, 0, 4, 1, 0, 0x80, 50}); // bus power, max 100 mA
     descriptor::addAudioControl(d, channels);
     descriptor::addAudioStream(d, channels, feedbackBytes);
     descriptor::addSerial(d);
@@ -233,9 +234,9 @@ constexpr DescriptorBytes configurationDescriptor(int channels, int feedbackByte
     return d;
 }
 
-/// The device descriptor. The vendor number is TinyUSB's for examples: this project owns none, so nothing may
-/// find the board by number; its name begins with "PhysVib". The version is the image's, since Windows keeps
-/// what it has read of one: "1.2.3" is 1.23.
+/// The device descriptor. Vendor and product are TinyUSB's numbers for examples, as this project owns none:
+/// find the board by its name, which begins with "PhysVib". Windows caches descriptors per version, so the
+/// version is that of the image: "1.2.3" is 1.23.
 constexpr std::array<std::uint8_t, 18> deviceDescriptor(int channels, std::string_view version) noexcept {
     std::array<int, 3> parts{};
     std::size_t part = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// GuardLaw in integers, for a chip without floating point: the last stage before the actuators. It keeps each
-// channel's mean over 250 ms, and its content below 5 Hz, within limits::guardShare of full scale. The rule
-// and its reasons: Core/Actuators/GuardLaw.h; this file is the same rule with the bounds of GuardPlace::last.
+// Numbers and types of the Pico's signal path, and the guard, the last stage before the actuators: GuardLaw
+// with the bounds of GuardPlace::last in integers, as the chip has no floating point. It keeps each channel's
+// mean over 250 ms, and its content below 5 Hz, within limits::guardShare of full scale (GuardLaw.h).
 //
 // Units: areas are sums of samples; z, v (state of the low-pass) are multiples of 2^-24 of full scale,
 // resting gains of 2^-30, loads of 2^-28 of its square. Products stay within 32 bits, as the chip's.
@@ -13,9 +13,6 @@
 #include <cstdint>
 
 namespace physvib::pico {
-
-// Numbers that all parts of the Pico's signal path share. Integers alone: the chip has no floating point, and
-// the same code gives the same bits on a computer, where its tests run.
 
 constexpr int sampleRateHz = 48000;
 constexpr int tileFrames = 16; // a third of a millisecond: gains and the guard are decided once per tile
@@ -39,7 +36,7 @@ class FixedGuard {
 public:
     using Sums = std::array<std::int32_t, static_cast<std::size_t>(channels)>; ///< of a tile's samples
 
-    /// `sums` of the tile that has just been sent. Decides the gains at the end of the next tile.
+    /// `sums`: of the tile that was sent last. Computes the gains for the end of the next tile.
     void take(const Sums& sums) noexcept {
         bool isSilent = true;
         for (const auto sum : sums) isSilent = isSilent && sum == 0;
@@ -78,12 +75,12 @@ private:
     static constexpr double radians = 6.283185307 * limits::slowestToneHz;
 
     struct Channel {
-        std::int32_t sum = 0, high = 0, low = 0, oldHigh = 0, oldLow = 0; // since the part began; extremes
+        std::int32_t sum = 0, high = 0, low = 0, oldHigh = 0, oldLow = 0; // since the part's start; extremes
         std::array<std::int32_t, parts> highs{}, lows{};
         std::int32_t z = 0, v = 0, loadSum = 0, rest = fullRest, to = unity;
     };
 
-    // a * b: |a| below 2^27 or 0 <= a, 0 <= b < 1/32.
+    // Product a * b, for |a| below 2^27 or 0 <= a, and 0 <= b < 1/32.
     static constexpr std::int32_t scaled(std::int32_t a, double b) noexcept {
         return (a >> 8) * static_cast<std::int32_t>(b * 65536.0 + 0.5) >> 8;
     }
@@ -104,8 +101,8 @@ private:
         return c.to;
     }
 
-    // The second-order low-pass, its squared output forgotten within a second, and half of the energy that is
-    // still in it.
+    // Steps the second-order low-pass; returns the mean of its squared output over a second, and half of the
+    // energy that is still in it.
     static std::int32_t followLoad(Channel& c, std::int32_t mean) noexcept {
         constexpr double step = radians / tilesPerSecond, half = 0.5 / radians;
         static_assert(limits::guardDamping == 1.0f, "without a product");
@@ -127,7 +124,7 @@ private:
         return load >= loadUnit / perLoad ? unity : load <= 0 ? 0 : load * perLoad >> 13;
     }
 
-    // Sums restart at 0, so that they stay within 32 bits.
+    // Starts the next part of the 250 ms. Sums restart at 0, so that they stay within 32 bits.
     void endPart() noexcept {
         for (auto& c : channel_) {
             c.highs[part_] = c.high;

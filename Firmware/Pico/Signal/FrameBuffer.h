@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames between USB and the output. One writer (main loop) and one reader (interrupt of the output); neither
-// waits. What does not fit is dropped and counted; what is missing is marked, and fades.
-// Its level also says how fast the host should send.
+// Between USB and the output: a queue of frames, the fade over its gaps, the feedback that tells the host how
+// fast to send, and the count of missing packets. Main loop writes, the output's interrupt reads; none waits.
 #pragma once
 #include "FixedGuard.h"
 #include <algorithm>
@@ -10,26 +9,24 @@
 
 namespace physvib::pico {
 
-// What follows missing frames joins what was before: from the last frame that was sent to the stream that
-// goes on, within a millisecond. A step would be a click. Each sample lies between those two, so nothing
-// becomes stronger than what the host sent.
-
-/// Interrupt of the output only.
+/// Fades, after a gap, from the last frame that was sent to the stream that continues, since a step would be
+/// a click. Samples lie between the two, so none is larger than those of the host. Interrupt of the output
+/// only.
 template <int channels>
 class DroppedFrames {
 public:
     static constexpr std::int32_t fadeFrames = 4 * tileFrames; // 1.3 ms; a power of two: cheap to divide by
 
-    /// Frames are missing behind the last one that joined.
+    /// Starts a fade: frames are missing after the last one.
     void miss() noexcept {
         held_ = last_;
         left_ = fadeFrames;
     }
-    /// Nothing is to be joined: the output is silent.
+    /// Ends the fade: the output is silent.
     void forget() noexcept { left_ = 0; }
 
     bool isJoining() const noexcept { return left_ > 0; }
-    /// In the place of join() while nothing is to be joined.
+    /// Replaces join() while there is no fade.
     void keep(const Frame<channels>& frame) noexcept { last_ = frame; }
     void join(Frame<channels>& frame) noexcept {
         if (left_ > 0) {
@@ -41,7 +38,7 @@ public:
         }
         last_ = frame;
     }
-    const Frame<channels>& last() const noexcept { return last_; } ///< the last one that joined
+    const Frame<channels>& last() const noexcept { return last_; } ///< last frame that was sent
 
 private:
     Frame<channels> held_{}, last_{};
@@ -58,7 +55,7 @@ public:
     /// More than this is latency, not safety: 5 ms.
     static constexpr std::uint32_t maxFrames = 240;
 
-    /// All frames of a packet, or none if they do not fit. Main loop.
+    /// Adds all frames of a packet; if they do not fit, drops and counts the packet. Main loop.
     void write(const Frame<channels>* frames, std::uint32_t count) noexcept {
         const auto at = written_.load(std::memory_order_relaxed);
         if (at - read_.load(std::memory_order_acquire) + count > maxFrames) {
@@ -74,10 +71,10 @@ public:
         written_.store(at + count, std::memory_order_release);
     }
 
-    /// Frames are missing before those of the next write. Main loop.
+    /// Marks a gap before the frames of the next write. Main loop.
     void miss() noexcept { isMissing_ = true; }
 
-    /// Number of frames read, at most a tile; they have joined what was before them. Interrupt.
+    /// Reads up to a tile, with fades after gaps; returns the number of frames. Interrupt of the output.
     int read(Tile<channels>& tile, DroppedFrames<channels>& dropped) noexcept {
         const auto at = read_.load(std::memory_order_relaxed);
         const auto count = std::min<std::uint32_t>(level(), tileFrames);
@@ -86,7 +83,7 @@ public:
             tile[k] = frames_[(at + k) % capacityFrames];
             isWhole = isWhole && !isBehindGap_[(at + k) % capacityFrames];
         }
-        if (isWhole && count > 0) // as most of the time
+        if (isWhole && count > 0) // the usual case
             dropped.keep(tile[count - 1]);
         else
             for (std::uint32_t k = 0; k < count; ++k) {
@@ -115,17 +112,17 @@ public:
 private:
     std::array<Frame<channels>, capacityFrames> frames_{};
     std::array<bool, capacityFrames> isBehindGap_{};
-    bool isMissing_ = false; // the writer's
+    bool isMissing_ = false; // writer only
     std::atomic<std::uint32_t> written_{0}, read_{0}, overruns_{0};
 };
 
-/// The rate that the host is asked for, in frames per millisecond with 16 binary places, from the level right
-/// after each packet: the board's clock decides, and the level neither runs empty nor full. Main loop.
+/// Computes the rate requested from the host, in frames per millisecond with 16 binary places, from the level
+/// after each packet, so that the buffer keeps its level at the board's clock. Main loop.
 class Feedback {
 public:
     static constexpr std::uint32_t nominal = (sampleRateHz / 1000) << 16;
 
-    /// `isPlaying`: the level means something.
+    /// The next rate. `isPlaying`: false gives the nominal rate, because the level is then meaningless.
     std::uint32_t next(std::uint32_t levelFrames, std::uint32_t targetFrames, bool isPlaying) noexcept {
         if (!isPlaying) {
             mean_ = 0;
@@ -147,17 +144,14 @@ private:
     bool hasMean_ = false;
 };
 
-// Packets that did not come. A host sends one in each millisecond of the bus; those are numbered, so a number
-// that is left out is a packet that was lost on the way.
-
-/// Main loop only.
+/// Counts lost packets: a host sends one in each numbered millisecond of the bus. Main loop only.
 class MissingPackets {
 public:
     /// `number`: the bus' count of milliseconds, 11 bits, at a packet. True: packets are missing before it.
     bool see(std::uint32_t number, bool isPlaying) noexcept {
         const std::uint32_t between = (number - last_ - 1) & numbers;
         last_ = number;
-        // The same number again: the packet before was looked at late. A stream that begins misses nothing.
+        // The same number again: the previous packet was handled late. A stream that starts has no gap.
         if (!isPlaying || between == 0 || between > numbers / 2) return false;
         count_ += between;
         return true;

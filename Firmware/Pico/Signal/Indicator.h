@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What the LED shows. Waiting: a short flash every two seconds. Playing: on. Limiting (guard or ceiling act):
-// eight flashes a second. Fault: three flashes, then a pause, for five seconds after it happened.
+// Inputs and outputs for people: the LED, and the jumper of the ceiling. LED while waiting: a short flash
+// every two seconds; playing: on; limiting (guard or ceiling): eight flashes a second; fault: three flashes,
+// then a pause, for five seconds.
 #pragma once
 #include "FixedGuard.h"
 
@@ -10,7 +11,7 @@ enum class Light { waiting, playing, limiting, fault };
 /// Main loop only. Times are counts of tiles since power-on.
 class Indicator {
 public:
-    /// `limited`, `faults`: totals so far.
+    /// Returns what to show. `limited`, `faults`: totals since power-on.
     Light see(std::uint32_t tiles, bool isPlaying, std::uint32_t limited, std::uint32_t faults) noexcept {
         if (limited != limited_) limitedAt_ = tiles, wasLimited_ = true;
         if (faults != faults_) faultAt_ = tiles, wasFault_ = true;
@@ -39,10 +40,8 @@ private:
     bool wasLimited_ = false, wasFault_ = false;
 };
 
-// The wire from GP9 to ground that allows full scale. Without it, as when it falls out, the ceiling is a
-// quarter; so it has to lie still for a while before it counts, and is gone at the first look that misses it.
-
-/// Main loop only. Times are counts of tiles since power-on.
+/// The wire from GP9 to ground, which allows full scale; without it the ceiling is a quarter. It counts after
+/// a contact of stillTiles, until the first interruption. Main loop only. Times are counts of tiles.
 class CeilingJumper {
 public:
     static constexpr std::uint32_t stillTiles = tilesPerSecond / 10; // a contact bounces for some 10 ms

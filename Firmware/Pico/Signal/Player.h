@@ -29,12 +29,11 @@ public:
         allowed_.store(isAllowed, std::memory_order_relaxed);
         bump(renewals_);
     }
-    /// The next start takes startTiles, as the first one and one after a hang of the main loop do. Others
-    /// follow a pause of a program that has played, whose next hit they would swallow. Main loop, while not
-    /// allowed.
+    /// Makes the next start take startTiles, like the first one and one after a hang of the main loop. Starts
+    /// after a pause of a program are quick, to keep its next hit. Main loop, while not allowed.
     void startSoftly() noexcept { isStartSoft_.store(true, std::memory_order_relaxed); }
-    /// Low (the initial state): everything is scaled to a quarter, and the ceiling is a quarter of full
-    /// scale. The ceiling falls within a tile, and rises as slowly as the soft start does. Main loop.
+    /// If low (the initial state), samples are scaled to a quarter, and the ceiling is a quarter of full
+    /// scale. The ceiling falls within a tile and rises as slowly as the soft start. Main loop.
     void setLowCeiling(bool isLow) noexcept {
         wantedScale_.store(isLow ? lowCeiling : unity, std::memory_order_relaxed);
     }
@@ -43,7 +42,7 @@ public:
         volume_[static_cast<std::size_t>(channel)].store(gain, std::memory_order_relaxed);
     }
 
-    /// The next tile. Interrupt of the output.
+    /// Renders the next tile. Interrupt of the output.
     void render(Tile<channels>& tile) noexcept {
         step();
         moveCeiling();
@@ -148,7 +147,7 @@ private:
                        bool& clipped) noexcept {
         std::int32_t sum = 0;
         const std::int32_t most = ceiling();
-        if (from == unity && end == unity && most == fullScale) { // the usual case: samples pass unchanged
+        if (from == unity && end == unity && most == fullScale) { // usual case: unchanged
             for (auto& frame : tile) {
                 clipped = clipped || frame[j] < -fullScale;
                 frame[j] = std::max<std::int16_t>(frame[j], -fullScale);

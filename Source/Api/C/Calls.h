@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// For all C functions: turns exceptions into error codes, keeps the error text, copies versioned structures.
+// Shared by all C functions: error codes and the error text, versioned structures, and conversions between
+// the structures of physvib.h and the types of the engine.
 #pragma once
 #include "Api/C/physvib.h"
 #include "Core/CollisionEvent.h"
@@ -68,7 +69,7 @@ Struct zeroed() noexcept {
     return values;
 }
 
-/// As physvib_event_init has it.
+/// An event with the values of physvib_event_init.
 inline physvib_event noEvent() noexcept {
     auto event = zeroed<physvib_event>();
     event.size = sizeof event;
@@ -111,8 +112,6 @@ std::size_t bytesOf(const void* given) noexcept {
     std::memcpy(&size, given, sizeof size);
     return size >= sizeof size && size <= sizeof(Struct) ? size : 0;
 }
-
-// Conversions between the structures of physvib.h and the types of the engine.
 
 inline CollisionEvent eventOf(const physvib_event& e) noexcept {
     const ContactKind kind = e.kind == PHYSVIB_ROLL    ? ContactKind::roll
@@ -166,13 +165,13 @@ std::string_view convert(const physvib_layout& from, EnchanterLayout& to) noexce
 /// Writes as much of a layout as the caller's `to` has; returns PHYSVIB_OK, or sets the error.
 int writeLayout(const EnchanterLayout& from, physvib_layout& to) noexcept;
 
-// A caller's events are read and written by the functions below alone, as large as the caller says they are.
+// Only the functions below read and write a caller's events, because their size is the caller's.
 
 /// Converts an event; returns empty, or why it cannot be played.
 std::string_view readEvent(const physvib_event& from, CollisionEvent& to) noexcept;
-/// The same of a list; `to` is then all of them, or none.
+/// Converts a list; returns empty, or why an event cannot be played, and then leaves `to` as it is.
 std::string_view readEvents(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to);
-/// The same of a list that has to be in time order.
+/// As readEvents(), and refuses a list that is not sorted by time.
 std::string_view readSorted(const physvib_event* from, std::int64_t count, std::vector<CollisionEvent>& to);
 
 /// Writes the first `capacity` events of a list; returns how many, or sets the error and returns it.

@@ -74,7 +74,7 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
     to.channels = from.channels;
     to.limiterEnabled = from.limiter != 0;
     to.panner = {layout, panningLaws[static_cast<std::size_t>(from.law)].law, from.exponent, width, height};
-    // the default law of before 0.2: grains are panned by energy
+    // This was the default law before 0.2; grains are panned by energy there.
     if (from.law == PHYSVIB_LAW_LINEAR && from.exponent == 1.0) to.panner.setGrains(grainSpread);
     return {};
 }
@@ -82,7 +82,7 @@ std::string_view convert(const physvib_renderer_settings& from, RendererSettings
 std::string_view readEvent(const physvib_event& from, CollisionEvent& to) noexcept {
     const std::size_t bytes = bytesOf<physvib_event>(&from);
     if (bytes == 0) return wrongSize;
-    physvib_event whole = noEvent(); // what an older program's event lacks is as its init has it
+    physvib_event whole = noEvent(); // members that an older program's event lacks keep their defaults
     std::memcpy(&whole, &from, bytes);
     const std::string_view fault = faultOf(whole);
     if (fault.empty()) to = eventOf(whole);

@@ -25,7 +25,7 @@ namespace {
 
 int written(const std::string& error) noexcept { return resultOf(error, PHYSVIB_ERROR_FILE); }
 
-/// A list as the renderer's source.
+/// A list of events as the source of a renderer.
 struct ListSource {
     std::span<const CollisionEvent> events;
     bool pop(CollisionEvent& event) noexcept {
@@ -70,7 +70,7 @@ int physvib_renderer_settings_init(physvib_renderer_settings* settings, size_t s
     values.exponent = 1.0;
     values.layout.size = sizeof values.layout;
     physvib_layout_preset("phone4", &values.layout);
-    // as much of the layout as the caller's structure has room for, which is at its end
+    // The layout is the last member, so it gets as much as the caller's structure has room for.
     constexpr std::size_t before = offsetof(physvib_renderer_settings, layout);
     static_assert(before + sizeof values.layout == sizeof values);
     values.layout.size = std::min(std::max(size, before) - before, sizeof values.layout);

@@ -73,7 +73,7 @@ public:
     /// The object of that handle, if it exists. Any thread, wait-free.
     Use use(std::uintptr_t name) noexcept PHYSVIB_NONBLOCKING {
         Slot& slot = slotOf(name);
-        slot.users.fetch_add(1); // before reading the name; take() clears the name before it reads the users
+        slot.users.fetch_add(1); // before the name is read; take() clears it before it reads users
         if (name != 0 && slot.name.load() == name) return {*slot.object, slot.users};
         slot.users.fetch_sub(1);
         return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Objects behind the handles of the C library.
+// Objects behind the handles of the C library: controllers, renderers and worlds, and their tables.
 #pragma once
 #include "Api/C/Calls.h"
 #include "Api/C/Handles.h"
@@ -18,9 +18,8 @@
 
 namespace physvib::api {
 
-// The motors of one controller, for a program that has a rumble call of its own.
-
-/// Neither allocates nor blocks. One thread at a time.
+/// Motors of one controller, for a program that sends the commands itself. Neither allocates nor blocks. One
+/// thread at a time.
 class Pad {
 public:
     Pad(const PadLaw& law, double fieldWidthMetres, double fieldHeightMetres) noexcept
@@ -81,10 +80,10 @@ struct Renderer {
     HapticRenderer renderer;
     Source source;
     int rateHz = 0, channels = 0;
-    std::mutex producers, readers; // any thread but R
+    std::mutex producers, readers; // never locked by the audio thread
     LastChanges changes;           // under `producers`
     LatestValue<RenderStatus> status;
-    std::atomic_flag isPulled; // set while R renders
+    std::atomic_flag isPulled; // set while a thread renders
 };
 
 struct World {
@@ -93,9 +92,9 @@ struct World {
     std::mutex mutex;
     ContactFeed feed;
     std::vector<CollisionEvent> taken; // events not yet handed out
-    // of bodies that are felt elsewhere than on the first device; their last events may come after they go
+    // Bodies that do not play on the first device; kept when a body is removed, since events may still come.
     std::unordered_map<int, int> devices;
-    std::uint64_t late = 0, dropped = 0, rejected = 0, withoutPart = 0; // of the output, last explained
+    std::uint64_t late = 0, dropped = 0, rejected = 0, withoutPart = 0; // of the output explained last
 };
 
 /// Controllers of a program that sends the motor commands itself.

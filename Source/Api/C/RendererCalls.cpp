@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// C functions of a renderer: queue events and changes, render samples.
+// C functions of a renderer (queue events and changes, render samples), and of the motors of controllers.
 #include "Api/C/Calls.h"
 #include "Api/C/Objects.h"
 #include "Core/ClockLaw.h"
@@ -58,7 +58,7 @@ private:
     bool isAlone_;
 };
 
-/// Runs `block(renderer)`, which renders, after checking the caller's channel count; returns its result. R.
+/// Checks the caller's channel count, then returns the result of `block(renderer)`. Audio thread.
 template <class Block>
 int pull(physvib_renderer name, int channels, int frames, Block block) noexcept PHYSVIB_NONBLOCKING {
     const auto renderer = use(name);

@@ -5,7 +5,7 @@
 
 namespace physvib::godot {
 namespace {
-// Interning hashes the text, which calls in each tick would do thousands of times.
+// Names are cached: interning hashes the text, and each tick makes thousands of calls.
 Name& nameOf(const char* literal) {
     static std::map<const char*, Name> names;
     return names.try_emplace(literal, literal).first->second;
@@ -136,7 +136,7 @@ bool Direct::find(const char* className, const char* method, std::int64_t hash) 
     return bind != nullptr;
 }
 
-// What is wrong in one tick is wrong in the next one too.
+// An error in one tick occurs in the next one too, so each line is printed once.
 void report(const std::string& line) {
     constexpr std::size_t most = 100, longest = 300; // a value may be a list of thousands
     static std::set<std::string> printed;
@@ -156,7 +156,7 @@ Symbol Functions::find(const char* name) {
 bool lookUp(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr library) {
     api = {get, library};
     if (api.isWhole) api.freeText = api.destructor(type::text);
-    api.loadHelp = api.find("editor_help_load_xml_from_utf8_chars"); // the editor's alone
+    api.loadHelp = api.find("editor_help_load_xml_from_utf8_chars"); // only the editor has it
     return api.freeText != nullptr;
 }
 

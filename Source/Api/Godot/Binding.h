@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Godot's values and calls, by Godot's own C header. Methods are called by name, or by pointer where each
-// tick calls them for each body; one binary fits all versions of Godot from 4.4 on. For Godot's main thread.
+// Godot's variants, strings and method calls, by its C header. Methods are called by name, or by pointer
+// where each tick calls them per body. One binary fits Godot 4.4 and later. For Godot's main thread.
 #pragma once
 
 #include <gdextension_interface.h>
@@ -28,7 +28,7 @@ constexpr auto object = GDEXTENSION_VARIANT_TYPE_OBJECT, nil = GDEXTENSION_VARIA
 
 using Vector = std::array<double, 3>; ///< a Vector3, or a Vector2 and 0
 
-/// A function of a library, of the type that is asked for; null: it lacks it.
+/// Address of a function, which converts to any function pointer; null if the library lacks it.
 struct Symbol {
     void* address;
     template <class Function>
@@ -84,7 +84,7 @@ struct Functions {
     GDExtensionsInterfaceEditorHelpLoadXmlFromUtf8Chars loadHelp = nullptr;
 };
 extern Functions api;
-/// False: this Godot lacks one of them.
+/// Looks up all of them; false: this Godot lacks one.
 bool lookUp(GDExtensionInterfaceGetProcAddress get, GDExtensionClassLibraryPtr library);
 
 /// An interned name; `literal` has to live as long as the program, since Godot keeps it.
@@ -126,13 +126,13 @@ public:
     Value(const char* text);
     Value(GDExtensionObjectPtr object)
         : Value(type::object, &object) {}
-    /// Of Godot's own form, as in calls by pointer.
+    /// `typed`: a value in Godot's own memory layout, as in calls by pointer.
     Value(GDExtensionVariantType type, void* typed) { api.fromType(type)(data.data(), typed); }
     static Value copyOf(GDExtensionConstVariantPtr variant);
     static Value empty(GDExtensionVariantType type);                        ///< such as a dictionary
     static Value callable(GDExtensionObjectPtr object, const char* method); ///< `method` is a literal
     static Value vector(const Vector& v, bool isSpace);
-    /// A copy of that type; nil: Godot does not convert one to the other.
+    /// A copy, converted to that type; nil if Godot cannot convert it.
     Value as(GDExtensionVariantType type) const;
 
     GDExtensionVariantType type() const { return api.getType(data.data()); }
@@ -148,7 +148,7 @@ public:
     /// A member or property; nil if there is none. `name` is a literal.
     Value member(const char* name) const;
     void set(const Value& key, const Value& value); ///< of a dictionary
-    /// `name` is a literal. What cannot be called returns nil.
+    /// Calls a method, whose `name` is a literal; returns nil if it cannot be called.
     template <class... Arguments>
     Value call(const char* name, const Arguments&... arguments) const {
         const std::array<Value, sizeof...(arguments)> values{Value(arguments)...};
@@ -156,7 +156,7 @@ public:
         for (std::size_t i = 0; i < values.size(); ++i) pointers[i] = values[i].raw();
         return callWith(name, pointers.data(), values.size());
     }
-    void copyTo(GDExtensionVariantPtr variant) const; ///< over an initialised one
+    void copyTo(GDExtensionVariantPtr variant) const; ///< which must be initialised
     const void* raw() const { return data.data(); }
     void* raw() { return data.data(); }
 
@@ -171,7 +171,7 @@ private:
 /// of Godot's calls by pointer: std::int64_t, double, unsigned char for bool, floats of a vector.
 class Direct {
 public:
-    /// `hash`: of its arguments' types, as extension_api.json says. False: this Godot has no such method.
+    /// `hash`: of the types of its arguments, from extension_api.json. False: this Godot has no such method.
     bool find(const char* className, const char* method, std::int64_t hash);
     template <class Result, class... Arguments>
     Result call(GDExtensionObjectPtr object, const Arguments&... arguments) const {
@@ -187,6 +187,6 @@ private:
 
 Value singleton(const char* name);    ///< such as "Input"
 bool isInEditor();                    ///< the editor shows the scene, nothing plays
-void report(const std::string& line); ///< a warning of Godot's; the same line only once in a run
+void report(const std::string& line); ///< prints a warning in Godot; the same line only once per run
 
 } // namespace physvib::godot

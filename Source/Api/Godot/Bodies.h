@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// HapticBody and HapticMaterial: what a body of Godot is to PhysVib. For Godot's main thread.
+// HapticBody and HapticMaterial, which describe a body of Godot to PhysVib. For Godot's main thread.
 #pragma once
 
 #include "Api/Godot/Classes.h"
@@ -10,7 +10,7 @@
 
 namespace physvib::godot {
 
-/// A child of a physics body: that body is felt, or at least observed.
+/// Child of a physics body, which makes that body a haptic source, or at least reports its contacts.
 class HapticBody final : public Instance {
 public:
     explicit HapticBody(GDExtensionObjectPtr object);
@@ -19,9 +19,9 @@ public:
     void changed() override;
     std::vector<std::string> warnings() const override;
 
-    /// Of Godot's physics body; 0: there is none.
+    /// Instance id of Godot's physics body; 0: there is none.
     std::uint64_t bodyId() const { return parentId; }
-    /// Of the physics server, in which the body is.
+    /// RID of the physics server's space that contains the body.
     std::uint64_t spaceId() const { return space; }
     bool isFelt() const;
     /// Sets vibration, gain and part, not the mass. `standard`: the HapticMaterial if it has none of its own;
@@ -32,15 +32,15 @@ private:
     std::uint64_t parentId = 0, space = 0;
 };
 
-/// Sets vibration and grains by a HapticMaterial of `node`; nil: none. An unknown preset is reported, and the
-/// material's two numbers count.
+/// Sets vibration and grains from a HapticMaterial of `node`; nil: sets nothing. An unknown preset is
+/// reported, and then frequency and decay of the material apply.
 void describeMaterial(physvib_body& body, const Value& material, const Value& node);
-/// RID of the space of a node of the plane or of space that is in a scene tree.
+/// RID of the physics space of a 2D or 3D node that is in a scene tree.
 std::uint64_t spaceOf(const Value& node, bool isSpace);
 
-/// Those of a class in a scene.
+/// Nodes of a class in a scene, which may be its root.
 std::vector<Value> nodesIn(const Value& scene, const char* kind);
-/// Those that are in a scene tree now.
+/// The nodes that are in a scene tree now.
 const std::vector<HapticBody*>& hapticBodies();
 
 extern const Class hapticBodyClass, hapticMaterialClass;

@@ -119,8 +119,8 @@ void addGroup(const Class& type, const char* name) {
     api.registerGroup(api.library, Name(type.name).get(), group.get(), prefix.get());
 }
 
-// Whoever creates an object has to send it the notification with which Godot's own part of it begins. It is
-// sent by pointer: a Value of a new resource would hold the first reference, and free the object at its end.
+// The creator of an object must send it the notification "created". It is sent by pointer, since a Value of a
+// new resource would hold its first reference and free the object when it goes out of scope.
 GDExtensionObjectPtr create(void* data, GDExtensionBool isToNotify) {
     const Class& type = *static_cast<Class*>(data);
     GDExtensionObjectPtr object = api.constructObject(Name(type.parent).get());
@@ -177,8 +177,8 @@ void registerClass(const Class& type) {
 namespace {
 std::uint64_t changes = 0;
 
-// Of a dictionary by objects, whose hint names the two classes: each key and value is of its class, or null,
-// as of a row that the editor has just made.
+// True if each key and value of a dictionary is of the class that the property's hint names, or null, as in a
+// row that the editor has just added.
 bool isOfItsClasses(const Property& property, const Value& dictionary) {
     const std::string hint = property.hintText;
     const std::size_t first = hint.find(':') + 1, end = hint.find(';'), second = hint.find(':', end) + 1;
@@ -195,13 +195,13 @@ bool isOfItsClasses(const Property& property, const Value& dictionary) {
 Value converted(const Property& property, const Value& value) {
     if (property.type == type::object)
         return value.call("is_class", property.hintText).isTrue() ? value : Value();
-    const auto isNumber = [](GDExtensionVariantType type) { // which Godot also makes of a text: 0
+    const auto isNumber = [](GDExtensionVariantType type) { // Godot converts texts to 0
         return type == type::boolean || type == type::whole || type == type::real;
     };
     if (isNumber(property.type) && !isNumber(value.type())) return {};
     const Value its = value.as(property.type);
     if (its.type() != type::dictionary) return its;
-    // It is shared until it is copied, so a script could change it without a call of set().
+    // A dictionary is shared until it is copied, so a script could change it without a call of set().
     return isOfItsClasses(property, its) ? its.call("duplicate") : Value();
 }
 bool isFinite(const Value& value) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A class of Godot as a table of its properties and methods, and an instance of one. For Godot's main thread.
+// A class for Godot as tables of properties and methods, and an instance of it. For Godot's main thread.
 #pragma once
 
 #include "Api/Godot/Binding.h"
@@ -16,12 +16,12 @@ struct Property {
     GDExtensionVariantType type;
     Value (*standard)();      ///< its default
     double smallest, largest; ///< of a number, or each part of a vector; both 0: any that is finite
-    const char* group;        ///< of the inspector; "": none
+    const char* group;        ///< heading in the inspector; "": none
     int hint = 0;             ///< Godot's PropertyHint
     const char* hintText = "";
 };
 
-/// An instance of one of our classes, owned by Godot's object of the same life.
+/// An instance of one of our classes; Godot's object owns it and destroys it with itself.
 class Instance {
 public:
     Instance(GDExtensionObjectPtr object, const std::vector<Property>& properties);
@@ -30,10 +30,10 @@ public:
     Instance& operator=(const Instance&) = delete;
 
     virtual void notified(int /*what*/) {}
-    virtual void changed() {} ///< a property has another value
+    virtual void changed() {} ///< called after a property has got another value
     virtual std::vector<std::string> warnings() const { return {}; }
 
-    /// Keeps the old value, and reports what was expected, if the new one cannot be used.
+    /// Sets a property. If the value cannot be used, reports what was expected and keeps the old one.
     void set(std::size_t property, const Value& value);
     const Value& get(std::size_t property) const { return values[property]; }
     Value self() const { return Value(object); }
@@ -52,7 +52,7 @@ struct Method {
     const char* name;
     GDExtensionVariantType result; ///< NIL: none
     Value (*call)(Instance&, const Value& argument);
-    const char* argumentClass = nullptr; ///< of the one argument, an object; null: there is none
+    const char* argumentClass = nullptr; ///< of its argument, an object; null: it has no argument
 };
 
 struct Class {
@@ -60,7 +60,7 @@ struct Class {
     const char* parent;
     const std::vector<Property>* properties;
     std::vector<Method> methods;
-    const char* signal; ///< with a dictionary named `hit`; null: none
+    const char* signal; ///< whose argument is a dictionary `hit`; null: it has no signal
     Instance* (*create)(GDExtensionObjectPtr object);
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts of a tick, as Godot's state of a body lists them after the solver.
+// HapticWorld reads the contacts that Godot lists after the solver, and the slides of characters.
 #include "Api/Godot/Meeting.h"
 #include "Api/Godot/Worlds.h"
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace physvib::godot {
 namespace {
-// Velocity before the solver of the point of a body that is at `place`.
+// Velocity, before the solver, of a body's point at `place`, m/s.
 Vector velocityAt(const Watched& body, const Vector& place) {
     const Vector turn = cross(body.spin, minus(place, body.centre));
     return {body.before[0] + turn[0], body.before[1] + turn[1], body.before[2] + turn[2]};
@@ -17,19 +17,19 @@ Vector across(const Vector& v, const Vector& normal) {
     const double along = dot(v, normal);
     return {v[0] - along * normal[0], v[1] - along * normal[1], v[2] - along * normal[2]};
 }
-// As contacts of balls do.
+// True if a normal points at the centre of mass, as in contacts of balls.
 bool goesThroughCentre(const Watched& body, const Vector& at, const Vector& normal) {
     const Vector arm = minus(at, body.centre), beside = across(arm, normal);
     return body.isRigid && dot(beside, beside) < 4e-4 * dot(arm, arm);
 }
-// 0 to 5: that of a ball on which a floor, or a wall of the same body, is.
+// Index 0 to 5 of the axis direction nearest to the normal; tells floor and wall of one body apart.
 int sideOf(const Vector& normal) {
     const auto longest = std::ranges::max_element(normal, {}, [](double x) { return std::abs(x); });
     return 2 * static_cast<int>(longest - normal.begin()) + (*longest < 0.0 ? 1 : 0);
 }
 } // namespace
 
-// What sleeps keeps its list of contacts, also with what was freed.
+// A sleeping body keeps its list of contacts, even with bodies that were freed.
 bool HapticWorld::isOtherThere(const Watched& each, int i) {
     const std::uint64_t id = each.state.contactObject(i);
     return id == 0 ? !each.state.sleeps() : api.instanceFromId(id) != nullptr;
@@ -54,22 +54,22 @@ void HapticWorld::touchAll(Watched& each) {
     each.under = under;
 }
 
-// Without this tick's gravity.
+// Approach speed without the gravity of this tick, m/s.
 double HapticWorld::approach(const Watched& each, const Surface& surface, int i) const {
     const Vector its = direction(each.state.contactOtherVelocity(i));
     return dot(minus(velocityAt(each, surface.at), its), surface.normal) -
            seconds * dot(each.pull, surface.normal);
 }
 
-// What strikes felt bodies only, strikes thousands of others too.
+// Contacts count only if one body has a HapticBody: others may be thousands.
 bool HapticWorld::isOfInterest(const Watched& each, int i) const {
     if (each.values != nullptr) return true;
     const auto known = watched.find(each.state.contactObject(i));
     return known != watched.end() && known->second.values != nullptr;
 }
 
-// A body without velocities of its own, or that is met for the first time, moves as Godot says of the point.
-// Null: that body lists this pair too.
+// The other body of contact i; null if that body lists the pair too. If it is not rigid or is new, it moves
+// with the velocity that Godot gives for the contact point.
 Watched* HapticWorld::other(const Watched& each, int i, const Vector& place) {
     const std::uint64_t id = each.state.contactObject(i);
     const auto known = watched.find(id);
@@ -96,8 +96,7 @@ Watched* HapticWorld::moving(std::uint64_t id, std::uint64_t rid, const Vector& 
     return found;
 }
 
-// Jolt lists what comes near before it touches. It counts if it gets there in this tick, and the solver has
-// slowed it.
+// Jolt also lists near contacts. They count if reached in this tick and if the solver has slowed the bodies.
 bool HapticWorld::getsThere(const Watched& each, const Watched& met, const Surface& surface) const {
     if (!(surface.gap > 0.0)) return true;
     const Vector own = velocityAt(each, surface.at), its = velocityAt(met, surface.at);
@@ -112,20 +111,19 @@ Surface HapticWorld::surfaceOf(const Watched& each, int i) const {
     return {at, there, normal, dot(minus(there, at), normal), length > 0.0};
 }
 
-// Where it touches, or where the plane on which it rolls or lands holds it: an edge that does not stand out
-// of it, as between two tiles, strikes nothing, though Jolt's normal points there; unless the solver stops
-// it, as at a ramp's foot. A ball has no edges. In `doubt`, of a ball: the speed at which it comes down on
-// that plane.
+// The surface of contact i, or the plane on which the body rolls or lands: an edge that does not rise above
+// the plane, as between tiles, is no obstacle although Jolt's normal points at it, unless the solver stops
+// the body, as at the foot of a ramp. If that is not sure, sets `doubt` to a ball's speed there.
 Surface HapticWorld::overSeams(const Watched& each, const Watched& met, int i,
                                std::optional<double>& doubt) const {
     constexpr double outstanding = 0.005; // m
     const Surface own = surfaceOf(each, i);
     if (goesThroughCentre(met, own.at, own.normal)) return own;
     const bool isRound = goesThroughCentre(each, own.at, own.normal);
-    const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch a wall as high as the floor
+    const double least = isRound ? 0.0 : 0.5; // a box's lower corners touch walls at floor height
     Surface found = own;
     double slowest = approach(each, own, i);
-    // Which rolls, or is stopped there.
+    // It rolls, or the solver stops it there.
     const bool isPlain = isRound ? slowest < 0.05 : pushOf(each, own.normal) > 0.5 * slowest;
     for (int j = isRound ? -1 : 0; !isPlain && j < each.state.contacts(); ++j) { // -1: of the last tick
         Surface under = j < 0 ? each.under : surfaceOf(each, j);
@@ -133,13 +131,13 @@ Surface HapticWorld::overSeams(const Watched& each, const Watched& met, int i,
                      alike = dot(own.normal, under.normal);
         const bool isNear = std::abs(height) < outstanding || (isRound && alike > 0.9);
         if (!under.isOne || !isNear || !(alike > least) || alike > 0.9999) continue;
-        if (j < 0) { // as a ball goes on over it
+        if (j < 0) { // the ball rolls on over it
             const Vector arm = minus(own.at, each.centre);
             for (std::size_t k = 0; k < 3; ++k)
                 under.at[k] = each.centre[k] + std::sqrt(dot(arm, arm)) * under.normal[k];
             under.there = own.there, under.gap = own.gap;
         }
-        // Of one body, what strikes at two places is solved together.
+        // Contacts at two places of the same body are solved together.
         const bool isAlone = j < 0 || each.state.contactBody(j) != each.state.contactBody(i);
         const double most = !isRound ? 0.5 : isAlone ? 0.9 : 0.1;
         if (const double its = approach(each, under, std::max(0, j)); its < most * slowest) {
@@ -150,13 +148,13 @@ Surface HapticWorld::overSeams(const Watched& each, const Watched& met, int i,
     return doubt ? own : found;
 }
 
-// Speed that the solver has taken along a normal, beyond this tick's gravity.
+// Speed along a normal that the solver has removed, without the gravity of this tick, m/s.
 double HapticWorld::pushOf(const Watched& each, const Vector& normal) const {
     return -dot(each.change, normal) - seconds * dot(each.pull, normal);
 }
 
-// A ball at an edge or a flat ramp is struck as hard as the solver pushes there beyond what is `known`: in
-// this tick, and where it leaves something, as Jolt does that sees it coming, in the next.
+// At an edge or a flat ramp, the impact of a ball is the speed that the solver removes beyond the `known`
+// one. If approach speed remains, since Jolt brakes early, the contact is deferred to the next tick.
 void HapticWorld::strikeDoubtful(const Watched& each, const Watched& met, physvib_contact contact,
                                  const Vector& normal, double known) {
     const auto isSame = [&](const Doubt& of) { return of.a == each.id && of.b == met.id; };
@@ -185,7 +183,7 @@ void HapticWorld::decide() {
         double& speed = of.contact.approach_m_per_s;
         const double pushed = pushOf(each->second, of.normal) - pushOf(met->second, of.normal);
         speed += std::max(0.0, pushed);
-        of.contact.fraction = std::max(-1.0, of.contact.fraction - 1.0); // a tick ago
+        of.contact.fraction = std::max(-1.0, of.contact.fraction - 1.0); // the impact was a tick earlier
         of.left -= pushed;
         if (pushed > 0.1 * speed && of.left > 0.1 * speed && ++of.ticks < longest)
             doubts.push_back(of);
@@ -218,7 +216,7 @@ void HapticWorld::touch(const Watched& each, int i) {
     contact.restitution = std::clamp(bounce, 0.0, 1.0);
     contact.approach_m_per_s = meeting.approachMetresPerSecond, contact.fraction = meeting.fraction;
     contact.gap_m = gap;
-    // The point goes with a round body's centre, or with the corner of what moves.
+    // The contact point moves with the centre of a round body, otherwise with the corner of this body.
     const bool isRound = goesThroughCentre(each, at, normal),
                isOtherRound = goesThroughCentre(*met, at, normal);
     const Vector point = isRound ? each.before : isOtherRound ? met->before : own;
@@ -226,20 +224,20 @@ void HapticWorld::touch(const Watched& each, int i) {
     const Vector way = dot(overOwn, overOwn) > dot(overIts, overIts) ? overOwn : overIts; // of the grains
     const double speed = std::max(1e-9, std::sqrt(dot(way, way)));
     contact.along_a_m_per_s = dot(overOwn, way) / speed, contact.along_b_m_per_s = dot(overIts, way) / speed;
-    contact.is_soft = PHYSVIB_SOFT; // an impact is as hard as its speed; what the solver pushed is a load
-    if (met->slides) contact.effective_mass_kg = each.described.mass_kg; // which Godot does not push
+    contact.is_soft = PHYSVIB_SOFT; // speed gives the impact; the solver's push is a load
+    if (met->slides) contact.effective_mass_kg = each.described.mass_kg; // Godot does not push it
     contact.point_id = isRound || isOtherRound ? sideOf(normal) : PHYSVIB_POINT_BY_PLACE;
     if (doubt) return strikeDoubtful(each, *met, contact, normal, *doubt);
     checkWorld(physvib_world_touch(world, &contact));
 }
 
-// What a CharacterBody struck in its last move_and_slide(): straight on within the tick, as its script wants.
+// Reports what a CharacterBody hit in its last move_and_slide(), at the velocity that its script wants.
 void HapticWorld::slideAll(Watched& each) {
     const Vector now = place(each.body.call("get_global_position").vector());
-    const Vector step = each.wasAt ? minus(now, each.at) : Vector{}; // new here, it came from nowhere
+    const Vector step = each.wasAt ? minus(now, each.at) : Vector{}; // a new body has no travel
     each.wasAt = true;
     const int count = static_cast<int>(each.body.call("get_slide_collision_count").whole());
-    double moved = 0.0; // of the tick
+    double moved = 0.0; // share of the tick
     for (int i = 0; i < count; ++i) {
         const Value hit = each.body.call("get_slide_collision", i);
         const Vector travel = direction(hit.call("get_travel").vector());
@@ -264,14 +262,14 @@ void HapticWorld::slideAll(Watched& each) {
         const double approach = dot(minus(each.before, met->before), normal);
         const double came =
             dot(step, normal) + dot(each.step, normal) - 2.0 * seconds * dot(met->before, normal);
-        // What only presses came no nearer in two ticks, whatever velocity its script sets.
+        // A body that only presses came no nearer in two ticks, whatever velocity its script sets.
         contact.approach_m_per_s = came > 0.25 * seconds * approach ? approach : 0.0;
         contact.fraction = moved, contact.point_id = PHYSVIB_POINT_NONE;
         contact.is_soft = PHYSVIB_SOFT;
         contact.effective_mass_kg =
             met->isRigid && met->described.mass_kg > 0.0 ? met->described.mass_kg : each.described.mass_kg;
         checkWorld(physvib_world_touch(world, &contact));
-        for (std::size_t k = 0; k < 3; ++k) // it slides on
+        for (std::size_t k = 0; k < 3; ++k) // it slides on along the surface
             each.before[k] -= std::max(0.0, approach) * normal[k];
     }
     each.at = now, each.step = step;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Explanations of physvib.h in the words of Godot's inspector.
+// Replaces the C names in explanations of physvib.h by those of Godot's inspector.
 #pragma once
 
 #include <string>

@@ -73,7 +73,7 @@ void Live::play(physvib_world world, const physvib_event& event) {
 
 std::vector<double> Live::left(int actuators) const {
     if (live == nullptr) return {};
-    constexpr physvib_int64 second = 1'000'000'000, unknown = 10'000'000; // the newest bins are not complete
+    constexpr physvib_int64 second = 1'000'000'000, unknown = 10'000'000; // newest bins
     const physvib_int64 until = library().now(live) - library().latency(live) - unknown;
     std::vector<double> peaks;
     physvib_live_receipt receipt;

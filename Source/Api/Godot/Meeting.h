@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// When and how fast two surfaces met. Any thread.
+// Estimates when and how fast two surfaces meet. Any thread.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,14 @@ namespace physvib::godot {
 
 struct Meeting {
     double approachMetresPerSecond;
-    double fraction; ///< in steps after the moment at which the engine looked
+    double fraction; ///< moment of the impact, in steps after the overlap test
 };
 
-/// Godot adds a step's gravity to velocities, looks where bodies overlap, and moves them straight on. So its
-/// places lie on a parabola whose speed at the look is half a step's gravity below the `speed` of the solver,
-/// and the surfaces met where that parabola crosses the other surface: before the look if they overlap
-/// (`gap` below 0), after it if Jolt saw them coming. `pull`: acceleration of one towards the other.
+/// Godot adds the gravity of a step to velocities, tests for overlaps, and moves bodies straight on.
+/// Positions therefore lie on a parabola, and at the overlap test the bodies approach half a step's gravity
+/// slower than `speed`, that of the solver in m/s. They meet where the parabola crosses the other surface:
+/// before the test
+/// if they overlap (`gap`, m, below 0), else after it. `pull`: gravity of one towards the other, m/s^2.
 inline Meeting meetingOf(double speed, double gap, double pull, double seconds) {
     const double looked = speed - 0.5 * pull * seconds;
     if (!(looked > 0.0)) return {speed, 0.0}; // rests, or parts

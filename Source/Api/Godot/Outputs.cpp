@@ -56,7 +56,7 @@ std::string Outputs::open(const std::string& name) {
         if (error.empty()) receivers.push_back(receiver);
         return error;
     }
-    if (settings.layout.count == 0) return ""; // which was reported
+    if (settings.layout.count == 0) return ""; // reported already
     auto device = std::make_unique<Live>();
     const std::string error =
         device->open(name, settings.layout, settings.levelDb, settings.fieldWidthMetres,
@@ -79,7 +79,7 @@ void Outputs::play(physvib_world world, const physvib_event& event) {
                             std::min(1.0, event.amplitude));
 }
 
-// As long ago for the player as it is in the world. Who names a controller knows that it is there.
+// The age of the event is converted to real time. A HapticBody's controller is not checked for its presence.
 void Outputs::strikePads(physvib_world world, const physvib_event& event) {
     const int only = physvib_world_device(world, event.fixture); // a HapticBody's controller + 1; 0: all
     const auto ago = static_cast<double>(physvib_world_time_ns(world) - event.time_ns);
@@ -93,11 +93,11 @@ void Outputs::strikePads(physvib_world world, const physvib_event& event) {
         if (pad.whole() < maxPads) physvib_pads_strike(pads, static_cast<int>(pad.whole()), &now);
 }
 
-// Godot's delta is of the game: stretched in slow motion, and nothing at a time scale of 0.
+// Godot's frame time is game time: it differs from real time in slow motion, and is 0 at a time scale of 0.
 void Outputs::update(double gameSeconds) {
     const std::int64_t now = singleton("Time").call("get_ticks_usec").whole();
     timeScale = singleton("Engine").call("get_time_scale").real();
-    if (hasHands && !settings.isSilent) hands.update(clockSeconds); // a first pulse is no frame old
+    if (hasHands && !settings.isSilent) hands.update(clockSeconds); // first, so that a new pulse has age 0
     clockSeconds += timeScale > 0.0 ? gameSeconds / timeScale : 1e-6 * static_cast<double>(now - lastUpdate);
     lastUpdate = now;
     if (sound != nullptr && !settings.isSilent) sound->update();
@@ -148,7 +148,7 @@ Sound::~Sound() {
     if (renderer != nullptr) physvib_renderer_free(renderer);
 }
 
-// A world that enters the tree may get its child only afterwards.
+// The child is added deferred: a node that is entering the tree cannot get children.
 std::string Sound::open(GDExtensionObjectPtr world, const std::string& bus, double fieldWidthMetres,
                         double fieldHeightMetres) {
     constexpr double bufferSeconds = 0.05; // a frame of the game, and a block of Godot's
@@ -174,11 +174,11 @@ std::string Sound::open(GDExtensionObjectPtr world, const std::string& bus, doub
     return "";
 }
 
-// Each as far behind its time in the world as those before: a frame comes when it comes.
+// All events get the same delay, so that their distances stay although frames are irregular.
 void Sound::play(physvib_event event) {
     constexpr double leadSeconds = 0.04, mostSeconds = 0.12; // a frame of the game and a block of Godot's
     const double ahead = 1e-9 * static_cast<double>(event.time_ns + later) - filled / rate;
-    if (!(ahead >= 0.0 && ahead <= mostSeconds)) // the first one, or the game stood still
+    if (!(ahead >= 0.0 && ahead <= mostSeconds)) // the first event, or the game was paused
         later = std::llround(1e9 * (filled / rate + leadSeconds)) - event.time_ns;
     event.time_ns += later;
     physvib_renderer_strike(renderer, &event);
@@ -233,7 +233,7 @@ void XrHands::rest() {
     hands = {};
 }
 
-// By the action of Godot's own action map.
+// "haptic" is the output action of Godot's default OpenXR action map.
 void XrHands::send(std::size_t hand, double hertz, double amplitude) {
     const Value interface = singleton("XRServer").call("get_primary_interface");
     if (interface.object() != nullptr)

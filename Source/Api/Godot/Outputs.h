@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where a world's events are felt: controllers and phones through Godot, other devices through
-// libphysvib-live. For Godot's main thread.
+// The outputs of a haptic world: OSC, devices of libphysvib-live, XR controllers, sound, and through Godot
+// game controllers and phones. For Godot's main thread.
 #pragma once
 #include "Api/Godot/Binding.h"
 #include <array>
@@ -15,17 +15,17 @@ namespace physvib::godot {
 /// Sends events to a program that speaks Open Sound Control.
 class Osc {
 public:
-    /// `address`: such as 127.0.0.1:9000. Returns the error; empty: it will send. Waits for a host's address.
+    /// `address`: such as 127.0.0.1:9000. Returns the error, or empty. Waits until the host name is resolved.
     std::string open(const std::string& address);
-    /// As /physvib/strike of Docs/messages.md: now, at its place in metres of the field.
+    /// Sends /physvib/strike of Docs/messages.md at once; places are in metres of the field.
     void play(const physvib_event& event) const;
 
 private:
     Value peer; ///< Godot's PacketPeerUDP
 };
 
-/// An open device of libphysvib-live. That library is loaded when a world names a device, so that games that
-/// rumble only need none of what it needs.
+/// An open device of libphysvib-live. The library is loaded when a world names a device, so that games
+/// without one do not need the libraries it needs.
 class Live {
 public:
     Live() = default;
@@ -33,14 +33,12 @@ public:
     Live(const Live&) = delete;
     Live& operator=(const Live&) = delete;
 
-    /// Returns the error; empty: it is open. Waits for the device. `sessionFile`: where all of its events are
-    /// written; empty: nowhere.
+    /// Returns the error, or empty. Waits for the device. `sessionFile`: file for its events, or empty.
     std::string open(const std::string& device, const physvib_layout& layout, double levelDb,
                      double fieldWidthMetres, double fieldHeightMetres, const std::string& sessionFile);
     void setLevel(double levelDb);
     void play(physvib_world world, const physvib_event& event);
-    /// The peak that left for each of `actuators` in the last second, 1: full scale; empty: not all of it
-    /// left.
+    /// Peak sent to each of `actuators` in the last second, 1: full scale; empty if not all of it was sent.
     std::vector<double> left(int actuators) const;
 
 private:
@@ -48,12 +46,12 @@ private:
     physvib_int64 startNs = 0; ///< session time of the world's time 0
 };
 
-/// Pulses of the two hands of an XR interface, in the hertz of what is felt. Each frame sends how strong the
-/// strongest hit still rings, so that a weak one never ends a strong one.
+/// Haptic pulses for the two hands of an XR interface, at the frequency of the event. Each frame sends the
+/// remaining amplitude of the strongest hit, so that a weak hit never ends a strong one.
 class XrHands {
 public:
     static constexpr const char* names[] = {"left_hand", "right_hand"}; ///< Godot's trackers, and parts
-    /// On the hand that the event's part names; otherwise on both.
+    /// Plays on the hand that the event's part names, otherwise on both.
     void play(const physvib_event& event, double nowSeconds);
     void update(double nowSeconds);
     void rest();
@@ -68,25 +66,25 @@ private:
     std::array<Ringing, 2> hands{};
 };
 
-/// The hits as sound, left and right by their place, by a player of Godot's that a renderer fills.
+/// Plays events as stereo sound, panned by their place: a renderer fills an audio player of Godot.
 class Sound {
 public:
     Sound() = default;
     ~Sound();
     Sound(const Sound&) = delete;
     Sound& operator=(const Sound&) = delete;
-    /// A child of `world`, a node, on that bus. Returns the error; empty: it will play.
+    /// Adds the player to the node `world`, on that audio bus. Returns the error, or empty.
     std::string open(GDExtensionObjectPtr world, const std::string& bus, double fieldWidthMetres,
                      double fieldHeightMetres);
     void play(physvib_event event);
-    void update(); ///< once a frame: what Godot has played since is filled up again
-    void rest();   ///< it stops until the next update
+    void update(); ///< once a frame: renders as many samples as Godot has room for
+    void rest();   ///< stops the player until the next update
 
 private:
-    std::uint64_t player = 0; ///< Godot's number of it: it goes with the world
+    std::uint64_t player = 0; ///< Godot's instance id, since the world's node owns it
     physvib_renderer renderer = nullptr;
     double rate = 0.0, filled = 0.0; ///< frames
-    std::int64_t later = 0;          ///< ns from the world's time to the stream's
+    std::int64_t later = 0;          ///< ns to add to the world's time for the stream's
 };
 
 struct OutputSettings {
@@ -100,20 +98,20 @@ struct OutputSettings {
 
 class Outputs {
 public:
-    explicit Outputs(GDExtensionObjectPtr of); ///< `of`: the world's node
+    explicit Outputs(GDExtensionObjectPtr of); ///< `of`: node of the world
     ~Outputs();
     Outputs(const Outputs&) = delete;
     Outputs& operator=(const Outputs&) = delete;
 
-    /// Opens outputs anew only if others are wanted, or elsewhere in the field.
+    /// Opens the outputs again only if their names, the layout or the field have changed.
     void configure(const OutputSettings& settings);
     void play(physvib_world world, const physvib_event& event);
-    /// Once a frame: commands of the motors. `gameSeconds`: of the frame, as the game has them.
+    /// Once a frame: sends motor commands. `gameSeconds`: duration of the frame in game time.
     void update(double gameSeconds);
-    /// What left the first device in the last second, see Live.
+    /// Peaks of the first device in the last second, see Live.
     std::vector<double> left() const;
-    void rest();  ///< the motors stop until the next update
-    void close(); ///< all motors stop, the devices are closed
+    void rest();  ///< stops motors and sound until the next update
+    void close(); ///< stops all motors and closes the devices
 
 private:
     std::string open(const std::string& name); ///< returns the error
@@ -127,8 +125,8 @@ private:
     XrHands hands;
     std::vector<std::unique_ptr<Live>> devices;
     std::vector<Osc> receivers;
-    unsigned rumbling = 0;                      ///< bit j: the motors of controller j have a command
-    double clockSeconds = 1.0, timeScale = 1.0; ///< of the player, whose motors know no slow motion
+    unsigned rumbling = 0;                      ///< bit j: controller j has a command
+    double clockSeconds = 1.0, timeScale = 1.0; ///< motors run in real time, also in slow motion
     std::int64_t lastUpdate = 0;                ///< us of the system
 };
 

@@ -30,7 +30,7 @@ struct Described {
     const char* name;
     Whole planeHash, spaceHash;
 };
-// In the order of Which; hashes from Godot's extension_api.json, of types that have not changed since 4.4.
+// In the order of Which; hashes from extension_api.json, of types unchanged since Godot 4.4.
 const std::array<Described, countOfMethods> methods{{
     {"get_transform", 3'814'499'831, 3'229'777'777},
     {"get_center_of_mass", 3'341'600'327, 3'360'562'783},

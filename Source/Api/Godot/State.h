@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Godot's state of a rigid body (PhysicsDirectBodyState2D or 3D), of which dozens of values are read per body
-// and tick: by pointer. In Godot's units, y as Godot has it. For Godot's main thread.
+// Reads Godot's state of a rigid body (PhysicsDirectBodyState2D or 3D) by pointer, since dozens of values are
+// read per body and tick. Units and axes are Godot's. For Godot's main thread.
 #pragma once
 
 #include "Api/Godot/Binding.h"
 
 namespace physvib::godot {
 
-/// False: this Godot lacks a method. Once, before the rest.
+/// Call once before all other functions. False: this Godot lacks a method.
 bool findStateMethods();
 
 class BodyState {
 public:
-    BodyState() = default; ///< of no body
-    /// `rid` of a body in a scene tree. Valid until the next call of its kind, and while the body is there.
+    BodyState() = default; ///< the state of no body
+    /// `rid`: a body in a scene tree. The result is valid until the next call, and as long as the body is.
     static BodyState of(std::uint64_t rid, bool isSpace);
     explicit operator bool() const { return object != nullptr; }
 
@@ -21,11 +21,11 @@ public:
     bool sleeps() const;
     Vector centre() const; ///< of mass, in the scene
     Vector velocity() const;
-    Vector spin() const; ///< in the plane about z, as Godot turns there: clockwise as seen
+    Vector spin() const; ///< rad/s; in 2D about z, clockwise as seen
     Vector gravity() const;
     double linearDamp() const;
     double angularDamp() const;
-    /// xx, yy, zz, xy, xz, yz; in the plane zz alone.
+    /// xx, yy, zz, xy, xz, yz; in 2D only zz is not 0.
     std::array<double, 6> inverseInertia() const;
 
     int contacts() const;
@@ -42,10 +42,10 @@ private:
     bool isSpace = false;
 };
 
-/// Godot lists at least that many contacts of the body in each tick from now on. Its motion stays, and its
-/// node's own `contact_monitor` too.
+/// Makes Godot list at least `count` contacts of the body per tick from now on. This changes neither its
+/// motion nor the `contact_monitor` of its node.
 void reportContacts(std::uint64_t rid, bool isSpace, int count);
-/// Of a Node.
+/// True if a Node is in a scene tree.
 bool isInTree(GDExtensionObjectPtr node);
 
 } // namespace physvib::godot

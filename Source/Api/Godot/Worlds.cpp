@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// beginStep() reads motions between the last script and the solver, finishStep() those after it, and
-// contacts. Nothing is written to Godot's physics.
+// HapticWorld: steps, field, outputs, and the list of observed bodies. beginStep() reads motions between the
+// last script and the solver, finishStep() those after it, and contacts. Godot's physics is only read.
 #include "Api/Godot/Worlds.h"
 #include "Api/Godot/Explanation.h"
 #include <algorithm>
@@ -14,7 +14,7 @@ Value HapticWorld::server() const { return singleton(isSpace ? "PhysicsServer3D"
 Vector HapticWorld::direction(const Vector& v) const {
     return {v[0] * unit, isSpace ? v[1] * unit : -v[1] * unit, v[2] * unit};
 }
-// About z alone in the plane, whose y goes down.
+// In 2D, y points down and spin is about z alone.
 Vector HapticWorld::turn(const Vector& spin) const { return isSpace ? spin : Vector{0.0, 0.0, -spin[2]}; }
 Vector HapticWorld::place(const Vector& v) const { return direction(minus(v, corner)); }
 
@@ -37,7 +37,7 @@ void HapticWorld::beginStep() {
     isOpen = true;
     for (auto& [id, each] : watched)
         if (each.state) moveBefore(each);
-    std::vector<Watched*> sliding; // which may meet bodies that are new here
+    std::vector<Watched*> sliding; // a list, since slideAll() may add bodies
     for (auto& [id, each] : watched)
         if (each.slides && each.values != nullptr) sliding.push_back(&each);
     for (Watched* each : sliding) slideAll(*each);
@@ -60,7 +60,7 @@ void HapticWorld::moveBefore(Watched& each) {
                                            each.spin.data(), inverse.data()));
 }
 
-// body_entered and _integrate_forces may set any body's velocity: all are read before.
+// All velocities are read before body_entered and _integrate_forces, which may set them.
 void HapticWorld::solved() {
     if (!isOpen || std::exchange(isSolved, true)) return;
     for (auto& [id, each] : watched) {
@@ -74,7 +74,7 @@ void HapticWorld::finishStep() {
     if (!isOpen) return;
     isOpen = isSolved = false;
     bounces.clear();
-    std::vector<Watched*> rigid; // contacts add bodies, and leave these where they are
+    std::vector<Watched*> rigid; // contacts may add bodies; these pointers stay valid
     for (auto& [id, each] : watched) {
         if (!each.isRigid || !isThere(each)) each.state = {};
         each.isMet = false;
@@ -96,7 +96,7 @@ void HapticWorld::moveAfter(Watched& each) {
 }
 
 namespace {
-std::vector<const HapticWorld*> worldsInTree; // in the order in which they came
+std::vector<const HapticWorld*> worldsInTree; // in the order of their entry
 } // namespace
 
 HapticWorld::HapticWorld(GDExtensionObjectPtr itsObject, bool isItSpace)
@@ -110,7 +110,7 @@ HapticWorld::~HapticWorld() {
 }
 
 void HapticWorld::notified(int what) {
-    if (what == notifiedPhysicsProcess) // after what scripts deferred, too
+    if (what == notifiedPhysicsProcess) // deferred, to follow calls that scripts deferred
         return (void)self().call("call_deferred", "_begin_step");
     if (what == notifiedPaused) return outputs.rest();
     if (what == notifiedProcess) {
@@ -141,7 +141,7 @@ void HapticWorld::enter() {
     self().call("set_physics_process_priority", afterAllScripts);
 }
 
-// It may come back: nothing is left of its bodies, and its time goes on.
+// The world may enter a tree again: its bodies are removed, its time continues.
 void HapticWorld::leave() {
     forget();
     outputs.close();
@@ -172,7 +172,7 @@ void HapticWorld::configure() {
     if (code != PHYSVIB_OK) report(std::string("HapticWorld: ") + physvib_error());
 }
 
-// Not within a tick: a script may set ten properties in one, and a device takes its time.
+// Called once per frame, since a script may set ten properties in a tick and devices open slowly.
 void HapticWorld::configureOutputs() {
     areOutputsStale = false;
     mapField();
@@ -229,8 +229,7 @@ Value HapticWorld::timeSeconds() const {
 void HapticWorld::mapField() {
     unit = get(metresPerUnit).real();
     corner = get(fieldCorner).vector();
-    if (!isSpace)
-        corner[1] += get(fieldSize).vector()[1]; // Godot's y points down in 2D: the lower left one is larger
+    if (!isSpace) corner[1] += get(fieldSize).vector()[1]; // y points down in 2D: a lower y is larger
 }
 
 std::string HapticWorld::findLayout(physvib_layout& found) const {
@@ -264,7 +263,7 @@ Value HapticWorld::actuatorPlaces() {
     return list;
 }
 
-// What the signal calls may free the world: it is looked for before each event.
+// A function connected to the signal may free this world, so its existence is checked before each event.
 void HapticWorld::emitAll() {
     std::vector<physvib_event> events(64);
     events.front().size = sizeof events.front();
@@ -275,7 +274,7 @@ void HapticWorld::emitAll() {
         for (physvib_int64 i = 0; i < count; ++i) {
             const physvib_event& event = events[static_cast<std::size_t>(i)];
             outputs.play(world, asSeen(event));
-            if (event.kind == PHYSVIB_HIT) hits.push_back(hitOf(event)); // grains would be thousands
+            if (event.kind == PHYSVIB_HIT) hits.push_back(hitOf(event)); // grains may be thousands
         }
     } while (count == static_cast<physvib_int64>(events.size()));
     const std::uint64_t id = api.instanceId(object);
@@ -309,7 +308,7 @@ Vector HapticWorld::inScene(const physvib_event& event) const {
             corner[2] + event.z_m / unit};
 }
 
-// With the field of the camera, an event is played where it is on the screen, which is the whole field.
+// With field_from_camera, the screen is the whole field: events move to their place on the screen.
 physvib_event HapticWorld::asSeen(const physvib_event& event) const {
     physvib_event seen = event;
     const Value viewport = get(fieldFromCamera).isTrue() ? self().call("get_viewport") : Value();
@@ -320,7 +319,7 @@ physvib_event HapticWorld::asSeen(const physvib_event& event) const {
         const Value camera = viewport.call("get_camera_3d"), place = Value::vector(at, true);
         if (camera.object() == nullptr) return seen;
         pixel = camera.call("unproject_position", place).vector();
-        if (camera.call("is_position_behind", place).isTrue()) // where it comes out mirrored
+        if (camera.call("is_position_behind", place).isTrue()) // unproject_position mirrors it then
             pixel = {size[0] - pixel[0], size[1], 0.0};
     } else {
         const Value view = viewport.call("get_canvas_transform");
@@ -335,8 +334,8 @@ physvib_event HapticWorld::asSeen(const physvib_event& event) const {
 }
 
 namespace {
-constexpr int listed = 16; // contacts of a body that Godot lists per tick, unless the game wants more
-// Ids of nodes have no highest bit.
+constexpr int listed = 16; // contacts per body and tick, unless the game wants more
+// A key for a body without a node: ids of nodes never have the highest bit set.
 std::uint64_t idOfRid(std::uint64_t rid) { return rid | std::uint64_t{1} << 63U; }
 bool isRigidBody(const Value& node, bool isSpace) {
     if (!isSpace) return node.call("is_class", "RigidBody2D").isTrue();
@@ -356,7 +355,7 @@ bool HapticWorld::isThere(const Watched& each) const {
     return each.isNode ? there != nullptr && isInTree(there) : each.isMet;
 }
 
-// Freed bodies go, those of new HapticBody nodes come, masses are as they are now.
+// Adds the bodies of new HapticBody nodes, removes freed ones, and updates masses.
 void HapticWorld::watchAll() {
     for (auto& [id, each] : watched) each.values = nullptr;
     for (const HapticBody* haptic : hapticBodies())
@@ -375,14 +374,14 @@ void HapticWorld::watchAll() {
     }
 }
 
-// Only rigid bodies list contacts. So what strikes a felt body of another kind is asked for its list.
+// Only rigid bodies list contacts, so if a haptic source is of another kind, all rigid bodies are observed.
 void HapticWorld::watchStrikers() {
     const bool isWanted = std::any_of(watched.begin(), watched.end(), [](const auto& each) {
         return each.second.values != nullptr && !each.second.isRigid && each.second.values->isFelt();
     });
     for (auto it = rigidBodies.begin(); it != rigidBodies.end();) {
         const GDExtensionObjectPtr there = api.instanceFromId(*it);
-        if (there == nullptr || !isInTree(there)) { // it is added again with the tree
+        if (there == nullptr || !isInTree(there)) { // node_added adds it again
             it = rigidBodies.erase(it);
             continue;
         }
@@ -431,7 +430,7 @@ void HapticWorld::forget() {
     doubts.clear();
 }
 
-// What did not change since is not described again.
+// A body is described again only if something has changed.
 void HapticWorld::describe(Watched& each) {
     double mass = 0.0;
     if (each.isRigid) {

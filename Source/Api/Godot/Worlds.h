@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// HapticWorld2D and HapticWorld3D: contacts of Godot's physics become events. For Godot's main thread.
+// The nodes HapticWorld2D and HapticWorld3D, which turn contacts of Godot's physics into events, and what
+// they know of bodies and contacts. For Godot's main thread.
 #pragma once
 #include "Api/Godot/Binding.h"
 #include "Api/Godot/Bodies.h"
@@ -13,43 +14,43 @@
 
 namespace physvib::godot {
 
-/// Where a body touches another one, or nearly does: a place on each, m, a unit normal from it to the other.
+/// A contact of a body, or one that is near: `at` on the body and `there` on the other, m; unit normal.
 struct Surface {
     Vector at, there, normal;
-    double gap; ///< m, below 0: they overlap
+    double gap; ///< m; below 0: the bodies overlap
     bool isOne; ///< false: Godot gave no normal
 };
 
-/// One thing with collision shapes that the world observes.
+/// A body, or another object with collision shapes, that the world observes.
 struct Watched {
-    std::uint64_t id;                   ///< of Godot's object, or made of a RID that has none
-    int number;                         ///< of physvib's body
+    std::uint64_t id;                   ///< of Godot's object, or derived from the RID if it has none
+    int number;                         ///< of the body in physvib.h
     Value body = {};                    ///< Godot's object; nil: it has none
-    std::uint64_t rid = 0;              ///< of a CollisionObject; 0: of several, such as a TileMapLayer's
-    const HapticBody* values = nullptr; ///< null: it only touches what is felt
+    std::uint64_t rid = 0;              ///< 0: several, as of a TileMapLayer
+    const HapticBody* values = nullptr; ///< its HapticBody; null: it only touches others
     bool isNode = false;
-    bool isRigid = false, slides = false; ///< it has velocities of its own; is a CharacterBody
-    bool isMet = false;                   ///< touched in the last tick: what is no node lives as long as that
+    bool isRigid = false, slides = false; ///< rigid body; CharacterBody
+    bool isMet = false;                   ///< touched in the last tick; others than nodes are kept only then
     BodyState state = {};                 ///< of this tick
-    physvib_body described = {};          ///< as physvib has it
+    physvib_body described = {};          ///< what physvib.h was told last
     std::uint64_t revision = 0;           ///< of properties when it was described; 0: never
     const HapticBody* describedBy = nullptr;
     Vector before = {};            ///< velocity before the solver, m/s, with this tick's gravity
     Vector spin = {}, centre = {}; ///< rad/s and m, before the solver
     Vector gravity = {};           ///< m/s^2, where it is
-    Vector pull = {};              ///< the same; 0 of a body that does not fall
-    Vector change = {};            ///< of velocity by the solver
-    Surface under = {};            ///< where it was slowest in the last tick
-    Vector at = {}, step = {};     ///< of a CharacterBody: after its last tick, and how far it came in it
+    Vector pull = {};              ///< gravity, m/s^2; 0 if the body does not fall
+    Vector change = {};            ///< of the velocity by the solver, m/s
+    Surface under = {};            ///< its slowest contact in the last tick
+    Vector at = {}, step = {};     ///< of a CharacterBody: position and travel of the last tick
     bool wasAt = false;            ///< of a CharacterBody: `at` is known
 };
 
-/// A contact of two bodies whose strength the next tick tells.
+/// A contact of two bodies whose strength is known only after the next tick.
 struct Doubt {
     std::uint64_t a, b; ///< of Watched
     Vector normal;      ///< from a to b
     physvib_contact contact;
-    double left; ///< m/s, still approaching
+    double left; ///< approach speed that remains, m/s
     int ticks = 0;
 };
 
@@ -61,28 +62,28 @@ public:
     void changed() override { isStale = areOutputsStale = true; }
     std::vector<std::string> warnings() const override;
 
-    void beginStep();              ///< all scripts are done, and the solver begins
-    void solved();                 ///< the solver is done, and no signal or script has changed a body yet
-    void finishStep();             ///< at the start of the next tick, before any script but those
-    void added(const Value& node); ///< to the tree
+    void beginStep();              ///< called after all scripts, before the solver
+    void solved();                 ///< called after the solver, before signals and scripts
+    void finishStep();             ///< called at the start of the next tick, before its scripts
+    void added(const Value& node); ///< called for each node that enters the tree
     Value explain() const;         ///< why nothing is felt, in one sentence
-    Value left() const;            ///< the peak of each actuator that left in the last second
+    Value left() const;            ///< peak sent to each actuator in the last second
     Value timeSeconds() const;
     Value actuatorPlaces(); ///< in units of the scene, also in the editor
 
 private:
     void enter();
     void leave();
-    bool isFirst() const; ///< of the worlds of its space; the others wait
+    bool isFirst() const; ///< first world of its space; the others wait
     void configure();
     void configureOutputs();
     void mapField();
-    std::string findLayout(physvib_layout& layout) const; ///< the error; empty: it is there
+    std::string findLayout(physvib_layout& layout) const; ///< returns the error, or empty
     void watchAll();
     void watchStrikers();
     bool isThere(const Watched& watched) const;
     Watched* watch(std::uint64_t id, std::uint64_t rid, const HapticBody* values);
-    void forget(); ///< all bodies, and the step that is open
+    void forget(); ///< all bodies; ends an open step
     void describe(Watched& watched);
     Value materialOf(const Watched& watched) const; ///< by its PhysicsMaterial; nil: none
     void moveBefore(Watched& watched);
@@ -98,7 +99,7 @@ private:
     double pushOf(const Watched& watched, const Vector& normal) const;
     void strikeDoubtful(const Watched& watched, const Watched& met, physvib_contact contact,
                         const Vector& normal, double known);
-    void decide(); ///< what was in doubt in the last tick
+    void decide(); ///< reports contacts that the last tick deferred
     bool getsThere(const Watched& watched, const Watched& met, const Surface& surface) const;
     Watched* other(const Watched& watched, int contact, const Vector& place);
     Watched* moving(std::uint64_t id, std::uint64_t rid, const Vector& velocity, const Vector& place);
@@ -114,14 +115,14 @@ private:
     Value objectOf(int number) const; ///< nil: it was freed
     Value server() const;
 
-    double seconds = 0.0; ///< of the step
+    double seconds = 0.0; ///< duration of the step
     bool isSpace, isStale = true, areOutputsStale = true, isOpen = false, isSolved = false;
     physvib_world world = nullptr;
     double unit = 1.0;
-    Vector corner{};         ///< the field's lower left one, in Godot's units
-    std::uint64_t space = 0; ///< of the physics server
+    Vector corner{};         ///< lower left one of the field, in Godot's units
+    std::uint64_t space = 0; ///< RID of the physics server's space
     std::map<std::uint64_t, Watched> watched;
-    std::map<int, std::uint64_t> objects; ///< by number
+    std::map<int, std::uint64_t> objects; ///< instance ids by body number
     std::set<std::uint64_t> rigidBodies;  ///< of the space, whether they have a HapticBody or not
     std::unordered_map<std::uint64_t, double> bounces; ///< of this tick, by RID
     std::vector<Doubt> doubts, decided;                ///< of this tick, of the last
@@ -129,7 +130,7 @@ private:
     Outputs outputs;
 };
 
-/// Places of the properties in their table.
+/// Indices of the properties in worldProperties().
 enum WorldProperty {
     metresPerUnit,
     fieldCorner,
@@ -148,7 +149,7 @@ enum WorldProperty {
 const std::vector<Property>& worldProperties(bool isSpace);
 extern const Class hapticWorld2dClass, hapticWorld3dClass;
 
-/// At a place of the field, along a unit normal from `a` to `b`; the rest is the caller's.
+/// A contact at a place of the field, m, with a unit normal from `a` to `b`; other members have defaults.
 inline physvib_contact contactOf(const Watched& a, const Watched& b, const Vector& at, const Vector& normal) {
     physvib_contact contact;
     physvib_contact_init(&contact, sizeof contact);
@@ -164,7 +165,7 @@ inline Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1
 inline Vector cross(const Vector& a, const Vector& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// Reports an error of physvib.h to Godot. Its main thread.
+/// Prints the error text of physvib.h in Godot if `code` is an error.
 inline void checkWorld(int code) {
     if (code < 0) report(std::string("HapticWorld: ") + physvib_error());
 }

@@ -83,7 +83,7 @@ int PHYSVIB_JS(clip_of)(const physvib_event* events, int count, const physvib_re
     return static_cast<int>(clip.channels.size());
 }
 
-/// Writes the clip in that file name's format to text(): one channel (-1: all). Returns 0 if it is silent.
+/// Writes one channel of the clip (-1: all) to text(), in the file name's format. Returns 0 if silent.
 int PHYSVIB_JS(clip_write)(const char* name, int channel) {
     const ClipFormat format = formatOf(name);
     const Clip one = channel < 0 ? clip : oneOf(clip, channel);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the WebAssembly module exports beside physvib.h: error handling, and the layout of its structures.
+// Exports of the WebAssembly module besides physvib.h: error handling, and the layout of its structures.
 #include "Api/JavaScript/Exports.h"
 #include "Api/C/physvib.h"
 #include <cstddef>

@@ -43,7 +43,7 @@ ScriptPad* PHYSVIB_JS(pad_create)(const double* law, double widthMetres, double 
 
 void PHYSVIB_JS(pad_free)(ScriptPad* pad) { delete pad; }
 
-/// Queues an event at the time at which it is to be felt. Returns 0, or an error.
+/// Queues an event; its time is that at which the motor shall be felt. Returns 0, or an error.
 int PHYSVIB_JS(pad_strike)(ScriptPad* pad, const physvib_event* event) {
     CollisionEvent own;
     if (const auto fault = api::readEvent(*event, own); !fault.empty())
@@ -58,7 +58,7 @@ double PHYSVIB_JS(pad_due)(ScriptPad* pad) {
     return dueNs == PadMotors::never ? std::numeric_limits<double>::infinity() : static_cast<double>(dueNs);
 }
 
-/// The next command: ns, low, high.
+/// Removes and returns the next command: time in ns, low and high motor.
 const double* PHYSVIB_JS(pad_next)(ScriptPad* pad, double level) {
     const PadCommand next = pad->motors().next(level);
     pad->command = {static_cast<double>(next.timeNs), next.low, next.high};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What an attachment observes in a step, told in one call: package/journal.js writes it. Thousands of entries
-// a step are usual, so they go to the feed without the C functions' structures.
+// Passes the motions and contacts of a step, which package/journal.js lists, to the feed in one call.
+// Thousands per step are usual, so the structures of the C functions are not used.
 #include "Api/C/Calls.h"
 #include "Api/C/Objects.h"
 #include "Api/JavaScript/Exports.h"
@@ -10,7 +10,7 @@ namespace physvib::js {
 
 namespace {
 
-constexpr double leftOut = -2.0e300; // as in journal.js: a default
+constexpr double leftOut = -2.0e300; // leftOut of journal.js: the member has its default
 
 Vector3 vectorOf(const double* at) noexcept {
     return {static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])};
@@ -18,7 +18,7 @@ Vector3 vectorOf(const double* at) noexcept {
 double orElse(double value, double other) noexcept { return value == leftOut ? other : value; }
 std::optional<double> known(double value) noexcept { return api::optional(orElse(value, PHYSVIB_UNKNOWN)); }
 
-/// Of the numbers after those of both bodies, in the order of journal.js.
+/// Reads an entry from the numbers of both bodies on, in the order of journal.js.
 FedContact contactOf(const double* at) noexcept {
     FedContact contact;
     contact.a = static_cast<int>(at[0]);
@@ -70,8 +70,8 @@ int tell(ContactFeed& feed, const double* entry, std::string_view& fault) {
 
 } // namespace
 
-/// Leaves out what has numbers that are none, so that one body does not end the haptics of all. Returns 0, or
-/// the first such body's number + 1 with the error in text(), or another error.
+/// Skips entries with invalid numbers, so that one body does not end the haptics of all. Returns 0, or the
+/// number + 1 of the first body skipped, with the error in text(), or a negative error code.
 extern "C" int PHYSVIB_JS(observe)(physvib_world world, const double* first, int count) {
     return api::in(world, [&](api::World& of) -> int {
         int refused = 0;
@@ -80,7 +80,7 @@ extern "C" int PHYSVIB_JS(observe)(physvib_world world, const double* first, int
             const int length = tell(of.feed, entry, fault);
             if (fault.starts_with("step:")) return api::fail(PHYSVIB_ERROR_ORDER, fault);
             if (!fault.empty() && refused == 0) {
-                refused = static_cast<int>(entry[1]) + 1; // of a contact, its first
+                refused = static_cast<int>(entry[1]) + 1; // of a contact, its body a
                 text() = fault;
             }
             entry += length;

@@ -37,14 +37,14 @@ int strike(Live& live, const physvib_event* given, std::int64_t count, std::int6
     if (const auto fault = readEvents(given, count, events); !fault.empty()) return nothingThere(fault);
     for (CollisionEvent& event : events) // those before the session's start are late and play at once
         event.timeNs = std::clamp<std::int64_t>(event.timeNs + startNs, 0, limits::maxTimeNs);
-    if (live.session().pulse().dropsNow(events.size())) return PHYSVIB_OK; // told by the status
+    if (live.session().pulse().dropsNow(events.size())) return PHYSVIB_OK; // the status reports them
     return live.session().submit({Strikes{events, true}, 0})
                ? PHYSVIB_OK
                : fail(PHYSVIB_ERROR_FULL, "events: expected fewer that wait for their time");
 }
 
-/// Takes all events of a world, in parts, final or not: a device plays them in time order anyway. Returns
-/// their number, or the first error.
+/// Passes all events of a world to `play`, up to 128 at once, final or not: a device sorts them by time.
+/// Returns their number, or the first error.
 template <class Play>
 physvib_int64 takeAll(physvib_world world, Play play) {
     std::array<physvib_event, 128> part{};
@@ -117,8 +117,8 @@ int physvib_live_align(physvib_live name, physvib_world world, physvib_int64* st
         if (startNs == nullptr) return nothingThere("start: expected a place for it, found NULL");
         const physvib_int64 timeNs = physvib_world_time_ns(world);
         if (timeNs < 0) return fail(static_cast<int>(timeNs), physvib_error());
-        // The step that has been made begins now. A call that is late, within L, is still on time; a world
-        // that runs ahead, as after an xrun, is felt that much later, so less of that is let pass.
+        // The last step of the world begins now. A call may be late by the output latency. A world that runs
+        // ahead, as after an xrun, plays later by as much, so it may be ahead by a step less than that.
         const Timeline& session = live.session().timeline();
         const physvib_int64 stepNs = 1'000'000'000 / live.stepsPerSecond(),
                             wanted = session.presentNs() + stepNs - timeNs;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Handles, checks and conversions that the functions of physvib-live.h share.
+// A live rig with a thread of its own, its handles, and checks that the functions of physvib-live.h share.
 #pragma once
 #include "Api/C/Calls.h"
 #include "Api/C/Handles.h"
@@ -17,9 +17,6 @@
 
 namespace physvib::api {
 
-// A live rig for programs without a message loop: session, audio device and sinks, with a message thread of
-// their own. The session has no world of its own.
-
 /// Status of the rig.
 struct LiveStatus {
     AudioOutputStatus output;
@@ -30,6 +27,7 @@ struct LiveStatus {
     std::string trouble;
 };
 
+/// Session, audio device and sinks for programs without a message loop; the caller simulates the world.
 /// Created and ended on any thread, one call at a time. A forked child has its memory and none of its
 /// threads: there it is neither used nor destroyed.
 class Live {
@@ -65,7 +63,7 @@ private:
     mutable std::mutex statusMutex_;
     LiveStatus status_;
     std::string unsaved_; // written by the message thread; read after it has ended
-    int ticks_ = 0;       // the message thread's, as the next
+    int ticks_ = 0;       // this and trouble_: message thread only
     std::string trouble_;
     std::thread messages_;
 };

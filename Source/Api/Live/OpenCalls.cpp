@@ -64,7 +64,7 @@ void closeAtExit() {
     static_cast<void>(registered);
 }
 
-/// Two on one output would add up behind their limiters.
+/// Two sessions on one output are refused: they would add up behind their limiters.
 bool areOutputsInUse(const Open& wanted) {
     if (wanted.device == std::string(noDeviceType) + ":" + noDeviceName) return false;
     const std::lock_guard lock{opened().mutex};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// On the device of a page: a renderer in an AudioWorklet, each actuator on its own output where there are as many, else a stereo monitor.
+// Output on the audio device of a page: a renderer in an AudioWorklet, each actuator on an output of its own if there are enough, else a stereo monitor.
 import { Clock, followed } from './clock.js';
 import { Route, Watch, buzzOf, expectOutputs, stands } from './device.js';
 import { expectLibrary, expectThat, naming } from './explanation.js';
@@ -174,7 +174,7 @@ class Output extends EventTarget {
         if (nowNs === undefined) tell();
         else this.#soon(tell, events.length);
     }
-    // What is meant for now: dropped, and counted, where the context stands still for half a second.
+    // Plays events now; they are dropped and counted if the context has stood still for half a second.
     #soon(tell, count) {
         if (!stands(this.#context)) return tell();
         const act = ({ type }) => {

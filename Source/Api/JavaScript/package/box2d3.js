@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Box2D 3 by box2d3-wasm: soft contacts in small steps. Contacts are read after the step, so no shape needs hit events.
+// Attaches to Box2D 3 (box2d3-wasm), which has soft contacts in small steps. Contacts are read after the step, so no shape needs hit events.
 import { Haptics, motionAt } from './haptics.js';
 import { contactOf, leftOut } from './journal.js';
 import { closingOf, endOf, startOf, stopOf } from './stops.js';

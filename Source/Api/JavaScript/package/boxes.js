@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Boxes and circles of velocities.js: how far apart they are, which are near, and where they meet. Thousands a step are usual, so nothing is allocated.
+// Geometry of boxes and circles for velocities.js: distance, neighbours and contact points. Thousands per step are usual, so nothing is allocated.
 
 /** m: bodies that are nearer touch, if their velocities say so. */
 export const skin = 0.02;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// cannon-es: it looks where bodies overlap, solves, and moves. It steps itself; what is called within its steps is among its subsystems and its listeners.
+// Attaches to cannon-es, which tests for overlaps, solves, and then moves. It steps itself; its subsystems and listeners call the code that must run within a step.
 import { expectEngine } from './haptics.js';
 import { SpaceHaptics } from './reader.js';
 import { dot, plus } from './space.js';

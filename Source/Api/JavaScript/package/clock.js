@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// When a world's time is felt: a line from its time to another clock's, and a latency. A game that steps 1/60 s at each of 45 pictures a second lasts a third longer
-// than its own time, and so does what is felt of it. The line is learned in a second, and anew when the game's pace changes or it has stood still.
+// Maps a world's time to another clock, by a line and a latency. A game that steps 1/60 s at each of 45 frames per second takes a third longer than its own time, and so
+// does its haptic output. The line is learned in a second, and again when the game's pace changes or after a pause.
 import { PhysVibError } from './module.js';
 
 const nsPerMs = 1e6;

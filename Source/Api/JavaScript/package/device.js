@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Between an audio context and hands: which outputs of the device its actuators reach, and whether a device takes what it plays.
+// Routing from an audio context to actuators: which outputs of the device they reach, and whether the device plays what it gets.
 import { PhysVibError } from './module.js';
 
 const patienceMs = 1000; // a browser may never answer where there is no device

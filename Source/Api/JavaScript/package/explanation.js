@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Explanations and refusals in the names that JavaScript has.
+// Explanations and errors with JavaScript's names instead of those of C.
 import { PhysVibError } from './module.js';
 import { names } from './names.js';
 

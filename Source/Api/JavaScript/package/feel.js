@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All of it by one call: an engine's haptics, felt by what the page has, with one field.
+// Haptics in one call: attaches to an engine and plays on all devices that the page has, with one field.
 import { play } from './audio.js';
 import { attach as box2d3 } from './box2d3.js';
 import { expectThat } from './explanation.js';

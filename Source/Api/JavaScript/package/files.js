@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Event lists, layouts, sounds and clips, which have a module of their own (files.wasm). Each is read in an instance of its own: what is refused takes
-// nothing with it.
+// Event lists, layouts, sounds and clips, by a module of its own (files.wasm). Each file is read in a new instance, so a file that is refused
+// affects nothing else.
 import { Module, PhysVibError } from './module.js';
 import { channelsOf, layoutAt, withSettings } from './settings.js';
 

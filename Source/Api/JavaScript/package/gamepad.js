@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every game controller that the browser has, and a phone's own motor. What is to be felt is summed as energy by the module (the arithmetic of the native
-// sink), so a weak hit never ends a strong one and none is left out because another sounds.
+// Output to all game controllers of the browser, and a phone's own motor. The module sums the energy of all sounding events (as the native sink does), so a weak hit never
+// ends a strong one and none is lost.
 import { Clock, followed } from './clock.js';
 import { PhysVibError } from './module.js';
 import { Waves } from './waves.js';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What every attachment has: numbers of bodies, steps, events for who follows and for who takes. Inside, lengths are metres and y points up.
+// Base of all attachments: numbers of bodies, steps, and events for listeners and outputs. Inside, lengths are metres and y points up.
 import { expectLibrary, expectThat, naming } from './explanation.js';
 import { material } from './impact.js';
 import { Journal, leftOut } from './journal.js';
@@ -8,7 +8,7 @@ import { PhysVibError } from './module.js';
 const mostKept = 10000; // events that nobody takes
 const wrongArgument = -2; // PHYSVIB_ERROR_ARGUMENT
 
-// As Box2D and Matter decide.
+// The rule by which Box2D and Matter decide.
 const mayTouch = (a, b) => (a.group === b.group && a.group !== 0 ? a.group > 0 : (a.mask & b.category) !== 0 && (a.category & b.mask) !== 0);
 
 export class Haptics {
@@ -27,7 +27,7 @@ export class Haptics {
         expectThat(metresPerUnit > 0, 'metresPerUnit', 'a number above 0', metresPerUnit);
         this.engine = engine;
         this.metresPerUnit = metresPerUnit;
-        // What is wrong with a call is told to who calls; that there is no room for another world does not end a game.
+        // Errors of a call are thrown to the caller; only a lack of room for another world does not end a game.
         this.world = this.#made(() => naming(['metresPerUnit', ...engine.options ?? []].join(', '), () => physvib.world(settings)));
     }
     #made(make) {
@@ -184,7 +184,7 @@ export class Haptics {
         });
         if (events) for (const follower of this.#followers) this.#hand(events, follower);
     }
-    // Who takes gets a list in the order of time: of what was before this step, nothing more can come.
+    // A caller of take() gets a list in time order: no more events can come from before this step.
     #settle(events) {
         if (events.length > 0) this.#held = this.#held.concat(events).sort((a, b) => a.timeNs - b.timeNs || a.fixture - b.fixture);
         while (this.#held[0]?.timeNs < this.#startNs) this.#waiting.push(this.#held.shift());

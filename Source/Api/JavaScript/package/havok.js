@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Havok: Babylon's scene with HavokPlugin, or the package @babylonjs/havok itself. It tells a bounce in three events whose impulses are not those of its steps, so they
-// say only who touches, and where.
+// Attaches to Havok: Babylon's scene with HavokPlugin, or the package @babylonjs/havok. It reports a bounce in three events whose impulses are not those of its steps, so
+// events are only used for who touches, and where.
 import { expectEngine } from './haptics.js';
 import { inverseOf, SpaceHaptics } from './reader.js';
 import { dot, plus, turn } from './space.js';
@@ -89,7 +89,7 @@ class HavokHaptics extends SpaceHaptics {
     }
 }
 
-// Of a body, a mesh that has one, an aggregate.
+// Accepts a body, a mesh that has one, or an aggregate.
 const heldBy = thing => (thing?.hpBodyId ? thing : thing?._pluginData ?? thing?._pluginDataInstances?.[0] ?? (thing?.physicsBody ?? thing?.body ? heldBy(thing.physicsBody ?? thing.body) : undefined));
 
 /** `engine`: Babylon's scene, with physics enabled; or { havok, world, bodies, gravity } of the package itself. */

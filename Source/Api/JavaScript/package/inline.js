@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// PhysVib with its code inside, for bundlers that take no files along (esbuild, Rollup), a single file, or a page without a server. build-package.sh puts files where braces are.
+// PhysVib with its code inside, for bundlers that cannot include files (esbuild, Rollup), single files, or pages without a server. build-package.sh inserts files at braces.
 import { load as loadCode } from './physvib.js';
 
 export * from './physvib.js';

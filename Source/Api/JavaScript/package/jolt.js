@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Jolt by jolt-physics: it looks ahead, and its listener of contacts says who may touch before it solves, and no impulses. A game's own listener is called, too.
+// Attaches to Jolt (jolt-physics). Its contact listener reports possible contacts before the solver, and no impulses. The game's own listener is called, too.
 import { expectEngine } from './haptics.js';
 import { SpaceHaptics } from './reader.js';
 import { dot, plus } from './space.js';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What an attachment observes in a step, in order, as a list of numbers that is told in one call; Step.cpp reads it. Thousands a step are usual, so nothing is allocated.
+// Lists the motions and contacts of a step as numbers, in order, for one call; Step.cpp reads them. Thousands per step are usual, so nothing is allocated.
 export const leftOut = -2e300; // a default
 const mostOfEntry = 19;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Matter 0.19 and 0.20, and Phaser's. It moves first and looks then, its y points down, its velocities are pixels per millisecond here, and it tells no
-// impulses: they follow from masses and from velocities before and behind its solver. It steps itself; its events say when.
+// Attaches to Matter 0.19 and 0.20, and Phaser's. It moves first and tests for contacts then, its y points down, its velocities are pixels per millisecond here, and it
+// has no impulses: they follow from masses and from velocities before and after its solver. It steps itself; its events say when.
 import { expectEngine, Haptics, motionAt } from './haptics.js';
 import { byPlace, contactOf, leftOut } from './journal.js';
 
@@ -40,7 +40,7 @@ class MatterHaptics extends Haptics {
         return all;
     }
 
-    // Of a body as it moves now, into one object for all.
+    // Reads the present motion of a body into one object that all calls share.
     #state = { vx: 0.5, vy: 0.5, spin: 0.5 };
     #stateOf(body) {
         const unit = this.metresPerUnit, perSecond = 1000 / (body.deltaTime || 1000 / 60), state = this.#state, { position, positionPrev } = body;
@@ -72,7 +72,7 @@ class MatterHaptics extends Haptics {
     left({ body }) { if (this.#byNumber[body.id]?.body === body) this.#byNumber[body.id] = undefined; }
     #pull({ x, y, scale }) { return Math.abs(Math.hypot(x, y) * scale) * 1e6 * this.metresPerUnit; }
 
-    // What Matter's own damping takes of a step is left out where it does not say when it solves.
+    // The effect of Matter's damping in a step is ignored where it does not say when it solves.
     #moveAs(known, falls) {
         const { body } = known, { gravity } = this.#engine, unit = this.metresPerUnit, add = falls * gravity.scale * 1e6 * unit, moves = !known.isStatic && !body.isSleeping, { vx, vy, spin } = this.#stateOf(body);
         known.isRound = body.circleRadius > 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One instance of the WebAssembly: memory, texts, structures, and errors as exceptions. Works where nothing but WebAssembly is: an AudioWorklet has
+// One instance of the WebAssembly module: memory, texts, structures, and errors as exceptions. Works with WebAssembly alone, since an AudioWorklet has
 // neither TextDecoder nor fetch.
 import { names, words } from './names.js';
 

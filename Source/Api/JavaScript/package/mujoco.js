@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// MuJoCo 3 by @mujoco/mujoco: its contacts are springs, so a blow is told by its speed and by what its solref gives back. As physvib_mujoco.h does: the field is the plane of
+// Attaches to MuJoCo 3 (@mujoco/mujoco), whose contacts are springs, so an impact is reported by its speed and its solref. As in physvib_mujoco.h, the field is the plane of
 // x and z, and its z is MuJoCo's -y.
 import { expectEngine } from './haptics.js';
 import { inverseOf, SpaceHaptics } from './reader.js';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Commands of two motors from events, by the module's arithmetic: the table of the native sink.
+// Converts events to commands of the two motors of a game controller, with the module's arithmetic and the profiles of the native sink.
 import { PhysVibError } from './module.js';
 import { profiles } from './profiles.js';
 

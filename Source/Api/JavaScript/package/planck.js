@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Planck 1: Box2D 2.4 in JavaScript. Its impulses are whole; in the first phase of a step those of a new pair have gravity's share in them.
+// Attaches to Planck 1, Box2D 2.4 in JavaScript. It reports whole impulses; in the first phase of a step those of a new pair include a share of gravity.
 import { expectEngine, Haptics, motionAt } from './haptics.js';
 import { byPlace, contactOf, leftOut } from './journal.js';
 
@@ -102,7 +102,7 @@ class PlanckHaptics extends Haptics {
         this.#count = to;
     };
     #knownOf(known, body) { return known?.body === body && !known.isOut ? known : this.know(body); }
-    // Of a contact, as long as it lasts. Planck goes through them in the order of the step before, but for few.
+    // State of a contact while it lasts. Planck visits most contacts in the order of the step before.
     #lookOf(contact) {
         let look = this.#looks.get(contact);
         if (look === undefined) this.#looks.set(contact, look = lookOf(contact));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rapier 2D: it looks before it moves, ahead of itself, and solves in small steps. So a blow is told by speed and restitution, and what goes on touching
+// Attaches to Rapier 2D, which predicts contacts before it moves and solves in small steps. So an impact is reported by speed and restitution, and a lasting contact
 // by momentum.
 import { byPlace, contactOf, leftOut } from './journal.js';
 import { expectEngine, Haptics, meet, motionAt } from './haptics.js';
@@ -161,7 +161,7 @@ export class RapierHaptics extends Haptics {
         pair?.free();
         return manifold ? types.filter(type => type.__wrap).map(shared) : null;
     }
-    // Of two balls the distance says whether Rapier has looked at them closely: asking it is what costs.
+    // The distance of two balls says whether Rapier has tested them for contact: asking Rapier is expensive.
     #areApart(one, other) {
         return one.radius > 0 && other.radius > 0 && one.posed === this.#pass && other.posed === this.#pass && this.between(one.at, other.at) > one.radius + other.radius + one.reach + other.reach;
     }
@@ -192,7 +192,7 @@ export class RapierHaptics extends Haptics {
             kept.reach = owner.isCcdEnabled?.() || owner.softCcdPrediction?.() > 0 ? Infinity : near + collider.contactSkin() + nearMetres / unit;
         });
     }
-    // Of what is known already: a sensor need not be.
+    // The record of a collider, which is only kept for bodies that were observed: a sensor need not have one.
     #sensed({ known }, owner) {
         const found = known === null || known.isOut ? this.known(owner) : known;
         return found?.isGone ? undefined : found;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rapier 3D: as Rapier 2D, with places, normals and motions in space.
+// Attaches to Rapier 3D: as Rapier 2D, with positions, normals and motions in space.
 import { expectRapier, RapierHaptics } from './rapier2d.js';
 import { dot, lostAt, nowhere, plus, spotAt, stopBefore, stopBehind, turn } from './space.js';
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Engines in space that tell who touches where, and no impulses that could be used: what a blow is follows from speeds and restitution, what lasts from momentum. Their
-// adapters say how bodies and contacts are read.
+// Base of attachments to 3D engines that report who touches where, but no usable impulses: impacts follow from speeds and restitution, lasting contacts from momentum.
+// Subclasses say how bodies and contacts are read.
 import { Haptics, meet } from './haptics.js';
 import { byPlace, contactOf, leftOut } from './journal.js';
 import { dot, lostAt, nowhere, plus, sizeOf, spotAt, stopBefore, stopBehind } from './space.js';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What left at the last point before the device, block by block: the measured side of every claim that something was played. Times are seconds of the audio context.
+// Measures what was sent at the last point before the device, block by block, as proof that something was played. Times are seconds of the audio context.
 const room = 8192; // blocks: 22 s at 48 kHz
 const audible = 1e-5; // of full scale: -100 dB
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Events in, samples out.
+// Renderer: events in, samples out.
 import { impactOf } from './impact.js';
 import { channelsOf, withSettings } from './settings.js';
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Engines that whoever may step: a game, a scene, a component. What attaches looks before and behind each step, by whomever it is made.
+// Wraps the step function of an engine that a game, a scene or a component may step, so that an attachment runs before and after each step, whoever makes it.
 const stepped = new WeakMap();
 
 /** `haptics.before(seconds)` and `haptics.after(isDone)` around each call of `object[name]`, until what it returns is called. `isOurs(...given)`: it steps our world; `secondsOf(...given)`:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Engines that tell velocities and boxes, but no impulses and maybe no contacts: Phaser's Arcade, Excalibur, Kaplay, or a game's own. What a step changed of two bodies
-// whose boxes or circles meet is their impact; masses say how strong. What changed without a neighbour, as a jump does, is no impact.
+// Attaches to engines with velocities and boxes, but without impulses and maybe without contacts: Phaser's Arcade, Excalibur, Kaplay, or a game's own. If boxes or circles of
+// two bodies meet, the change of their velocities in a step is their impact, weighted by masses. A change without a neighbour, such as a jump, is no impact.
 import { apart, between, copy, eachNear, putWalls, skin, stateOf } from './boxes.js';
 import { expectThat } from './explanation.js';
 import { PhysVibError } from './module.js';
@@ -29,7 +29,7 @@ class VelocityHaptics extends Haptics {
     #newState(body) {
         const state = stateOf(), given = {};
         if (!this.#walls.includes(body)) {
-            // As a thing without a body does: who sets it is told.
+            // Throws, as for an object without a body: the caller that sets it shall know.
             try { this.#engine.read(body, given); } catch (error) { throw new PhysVibError(-2, `body: expected one of the engine's, found ${body.constructor?.name} (read: ${error.message})`); }
             for (const name of ['x', 'y', 'vx', 'vy']) if (typeof given[name] !== 'number') throw new PhysVibError(-2, `attachVelocities: expected that read gives x, y, vx and vy, found ${name}: ${given[name]}`);
         }
@@ -123,7 +123,7 @@ class VelocityHaptics extends Haptics {
         const a = this.known(stateA.body) ?? this.know(stateA.body), b = this.known(stateB.body) ?? this.know(stateB.body), before = apart(stateA.before, stateB.before, this.#before), after = apart(stateA, stateB, this.#after);
         const unit = this.metresPerUnit, { nx, ny } = normal ? { nx: normal.x, ny: normal.y * this.#turn } : before.gap > 0 ? before : after;
         const closing = (a.vx - b.vx) * nx + (a.vy - b.vy) * ny, parting = (stateB.vx - stateA.vx) * nx + (stateB.vy - stateA.vy) * ny;
-        // What passes by, or through, keeps its velocity. An engine that solves before it moves has moved them apart again.
+        // Bodies that pass by, or through, keep their velocities. An engine that solves before it moves has moved them apart again.
         const isMet = parting + closing > 1e-3 && Math.min(before.gap, after.gap) < skin + this.#seconds * Math.max(0, closing, parting), key = pairOf(a.id, b.id);
         if (!normal && !isMet && !(this.#was.has(key) && Math.min(before.gap, after.gap) < skin && Math.abs(closing) < this.#slow)) return; // what hops, flies
         this.#touching.add(key);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Controllers that play samples: playPCM(AudioBuffer) of the draft https://github.com/immersive-web/gamepad-haptics. A buffer replaces the one before, so each
-// holds all that rings and all that is to come, from now on.
+// Output to controllers that play samples: playPCM(AudioBuffer) of the draft https://github.com/immersive-web/gamepad-haptics. A buffer replaces the one before, so each
+// contains all that sounds and is scheduled from now on.
 const rate = 8000; // Hz: of an AudioBuffer the least that every browser has; vibration is below 1 kHz
 const aheadSeconds = 1; // of a buffer; what rings longer goes on with the next
 const ringsSeconds = 3; // an event is forgotten then
@@ -47,7 +47,7 @@ export class Waves {
         for (const pad of pads) if (pad && this.takes(pad)) this.#play(pad, new Float32Array(1)); // an empty one would change nothing
     }
 
-    // What plays no samples after all is driven by its motors from then on.
+    // A controller that turns out to play no samples is driven by its motors from then on.
     #play({ vibrationActuator: actuator }, samples) {
         const sound = this.#makeBuffer({ numberOfChannels: 1, length: samples.length, sampleRate: rate });
         sound.copyToChannel(samples, 0);

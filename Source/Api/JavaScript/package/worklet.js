@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The audio thread: one renderer in an instance of its own. It imports nothing, so that a bundler may copy it as it is. What it gets are structures in
-// bytes, as physvib.h has them, and calls by their names.
+// The audio thread: one renderer in a module instance of its own. It imports nothing, so that bundlers may copy it unchanged. It receives structures of physvib.h
+// as bytes, and calls by name.
 const mostSkipped = 32; // quanta that are made up for in one: 1 ms of work
 
 class PhysVibProcessor extends AudioWorkletProcessor {
@@ -29,7 +29,7 @@ class PhysVibProcessor extends AudioWorkletProcessor {
         this.port.postMessage({ isOpen: this.isOpen, latencyFrames: this.isOpen ? this.lib.physvib_renderer_latency_frames(this.renderer) : 0 });
     }
 
-    // What goes wrong here is told, and ends this processor.
+    // An error is reported and ends this processor.
     guarded(work) {
         try {
             return work();

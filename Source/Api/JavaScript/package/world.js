@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contacts in, events out.
+// World: contacts in, events out.
 import { inWords, naming, notes } from './explanation.js';
 import { PhysVibError } from './module.js';
 import { Renderer } from './renderer.js';

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Controllers of WebXR, which navigator.getGamepads() does not have: each hit on the hand that made it, by pulses of the arithmetic that rumble() has for motors.
+// Output to WebXR controllers, which navigator.getGamepads() does not have: pulses, with the arithmetic of motors, on the hand that made the hit.
 import { expectThat } from './explanation.js';
 import { rumble } from './gamepad.js';
 
